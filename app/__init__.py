@@ -1,0 +1,1 @@
+"""Backend of the operator console: HTTP, live data, recording, analysis and reports."""
