@@ -1,0 +1,46 @@
+"""Numbers that cross the shared memory, declared once: commands, replies, events."""
+
+from enum import IntEnum
+
+
+class Opcode(IntEnum):
+    """What the app may ask of the loop."""
+
+    RESET = 1
+    PRESSURISE = 2
+    DEPRESSURISE = 3
+    TARE = 4
+    START = 5
+    HOLD = 6
+    RESUME = 7
+    STOP = 8
+    SHUTDOWN = 9
+    ADOPT_GAINS = 10
+    ADOPT_INTERLOCKS = 11
+    ADOPT_PROGRAM = 12
+
+
+class Reply(IntEnum):
+    """What the loop answers to a command."""
+
+    ACCEPTED = 0
+    WRONG_MODE = 1
+    STALE_LEASE = 2
+    EXPIRED = 3
+    REPLAYED = 4
+    UNKNOWN = 5
+    CAUSE_PRESENT = 6
+    INVALID_BANK = 7
+    NO_PROGRAM = 8
+    BUSY = 9
+
+
+class EventKind(IntEnum):
+    """What the loop reports."""
+
+    MODE = 1
+    TRIP = 2
+    COMMAND = 3
+    BLOCK = 4
+    PROGRAM_ENDED = 5
+    DEADLINES_MISSED = 6

@@ -1,0 +1,71 @@
+"""The simulated rig behind the I/O boundary, and its binding to the tick."""
+
+from typing import Any
+
+import numpy as np
+
+from rtcore.compiled import address_of, carray, kernel, pointer
+from rtcore.core import CORE, make_core
+from rtcore.memory.layout import BLOCK
+from rtcore.memory.segment import Block, private_block
+from rtcore.rig.parameters import RigParameters
+from rtcore.rig.world import WORLD, make_world, read_world, write_world
+from rtcore.tick import tick
+
+
+@kernel
+def cycle(
+    block_address: int,
+    core_address: int,
+    world_address: int,
+    now_ns: int,
+    wakeup_latency_ns: int,
+    tick_time_ns: int,
+    missed: int,
+) -> None:
+    """read → tick → write."""
+    block = carray(pointer(block_address), 1, BLOCK)[0]
+    core = carray(pointer(core_address), 1, CORE)[0]
+    world = carray(pointer(world_address), 1, WORLD)[0]
+    period_s = core.settings.period_s
+    read_world(world, core.inputs, period_s)
+    tick(core, block, block_address, now_ns, wakeup_latency_ns, tick_time_ns, missed)
+    write_world(world, core.outputs, period_s)
+
+
+class SimulatedIo:
+    """Loop and simulated rig, bound to one block. `core` and `world` are theirs alone."""
+
+    def __init__(self, rig: RigParameters, seed: int, block: Block, settings: dict[str, float] | None = None) -> None:
+        ranges = {
+            "force_range_n": rig.sensors.force_range_n,
+            "velocity_range_m_s": rig.sensors.velocity_range_m_s,
+            "displacement_range_m": rig.sensors.displacement_range_m,
+            "displacement_limit_m": rig.unit.stroke_m,
+        }
+        self.block = block
+        self.cores = make_core(block.period_s, ranges | (settings or {}))
+        self.worlds = make_world(rig, seed)
+        self.addresses = (block.address, address_of(self.cores), address_of(self.worlds))
+
+    @property
+    def core(self) -> Any:
+        return self.cores[0]
+
+    @property
+    def world(self) -> Any:
+        return self.worlds[0]
+
+    def warm_up(self) -> None:
+        """Compile the tick on copies of everything, then freeze it: no tick may ever compile."""
+        spare = private_block(int(self.block.fields["period_ns"]), seconds=0.01)
+        cores, worlds = np.copy(self.cores), np.copy(self.worlds)
+        cycle(spare.address, address_of(cores), address_of(worlds), 0, 0, 0, 0)
+        cycle.disable_compile()  # type: ignore[attr-defined]
+
+    def cycle(self, now_ns: int, wakeup_latency_ns: int, tick_time_ns: int, missed: int) -> None:
+        """One tick."""
+        cycle(*self.addresses, now_ns, wakeup_latency_ns, tick_time_ns, missed)
+
+    def close(self) -> None:
+        """Nothing to leave safe: a simulated rig ends with its process."""

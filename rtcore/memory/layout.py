@@ -1,0 +1,98 @@
+"""The shared block's layout: one declaration, from which the offsets and the layout hash derive."""
+
+import hashlib
+
+import numpy as np
+
+from rtcore.channels import TELEMETRY
+from rtcore.codes import EventKind, Opcode, Reply
+from rtcore.control.gains import GAINS
+from rtcore.interlocks import INTERLOCKS
+from rtcore.modes import Mode
+from rtcore.program.segments import PROGRAM
+
+MAGIC = 0x4749524543524F46  # "FORCERIG", little-endian
+COMMAND_SLOTS = 64
+EVENT_SLOTS = 4096
+HISTOGRAM_BINS = 1000
+HISTOGRAM_BIN_S = 1e-6
+CONDITIONS_BYTES = 8192
+
+COMMAND = np.dtype(
+    [
+        ("sequence", "i8"),
+        ("expires_ns", "i8"),  # monotonic clock; refused afterwards
+        ("lease", "i8"),  # epoch of the command lease
+        ("argument", "i8"),
+        ("opcode", "i8"),
+    ],
+    align=True,
+)
+ACKNOWLEDGEMENT = np.dtype([("sequence", "i8"), ("tick", "i8"), ("reply", "i8")], align=True)
+EVENT = np.dtype(
+    [
+        ("sequence", "i8"),
+        ("tick", "i8"),
+        ("kind", "i8"),  # EventKind
+        ("code", "i8"),  # mode, detector, opcode or block
+        ("value", "f8"),  # what was seen
+        ("limit", "f8"),  # what was allowed
+    ],
+    align=True,
+)
+
+BLOCK = np.dtype(
+    [
+        ("magic", "i8"),
+        ("layout_hash", "i8"),
+        ("telemetry_slots", "i8"),  # a power of two
+        ("period_ns", "i8"),
+        ("loop_pid", "i8"),
+        ("loop_started_ns", "i8"),  # monotonic clock; names this life of the loop
+        ("app_pid", "i8"),
+        # Each of these is written by one process only, so each has a cache line of its own.
+        ("loop_heartbeat_ns", "i8"),
+        ("_pad0", "i8", (8,)),
+        ("app_heartbeat_ns", "i8"),
+        ("_pad1", "i8", (8,)),
+        ("commands_posted", "i8"),
+        ("_pad2", "i8", (8,)),
+        ("commands_taken", "i8"),
+        ("_pad3", "i8", (8,)),
+        ("events_published", "i8"),
+        ("telemetry_published", "i8"),
+        ("snapshot_sequence", "i8"),  # odd while the snapshot is being written
+        ("snapshot", TELEMETRY),
+        ("first_out", "i8"),  # detector that tripped first since the last reset, -1 for none
+        ("active_gains", "i8"),
+        ("active_interlocks", "i8"),
+        ("active_program", "i8"),
+        ("late_ticks", "i8"),  # ticks that ended after the next deadline
+        ("wakeup_histogram", "i8", (HISTOGRAM_BINS,)),
+        ("tick_time_histogram", "i8", (HISTOGRAM_BINS,)),
+        ("commands", COMMAND, (COMMAND_SLOTS,)),
+        ("acknowledgements", ACKNOWLEDGEMENT, (COMMAND_SLOTS,)),
+        ("gains", GAINS, (2,)),
+        ("interlocks", INTERLOCKS, (2,)),
+        ("programs", PROGRAM, (2,)),
+        ("events", EVENT, (EVENT_SLOTS,)),
+        ("conditions", f"S{CONDITIONS_BYTES}"),  # JSON: which real-time conditions were had
+    ],
+    align=True,
+)
+
+
+def _layout_hash() -> int:
+    described = repr(
+        (BLOCK.descr, TELEMETRY.descr, [[(m.name, m.value) for m in e] for e in (Opcode, Reply, EventKind, Mode)])
+    )
+    return int.from_bytes(hashlib.sha256(described.encode()).digest()[:7], "little")
+
+
+LAYOUT_HASH = _layout_hash()
+RING_OFFSET = -(-BLOCK.itemsize // 4096) * 4096
+
+
+def block_bytes(telemetry_slots: int) -> int:
+    """Size of a block whose telemetry ring has this many records."""
+    return RING_OFFSET + telemetry_slots * TELEMETRY.itemsize

@@ -1,0 +1,194 @@
+"""Obey: take one command a tick, and answer it. A command is refused, never queued for a better moment."""
+
+from rtcore.codes import EventKind, Opcode, Reply
+from rtcore.compiled import kernel
+from rtcore.control.law import adopt_gains, gains_are_valid
+from rtcore.interlocks import interlocks_are_valid
+from rtcore.io import SUPPLY_OFF
+from rtcore.memory.commands import acknowledge, pending
+from rtcore.memory.layout import COMMAND_SLOTS
+from rtcore.memory.rings import publish_event
+from rtcore.modes import Event, Mode, is_run
+from rtcore.program.validate import segment_is_valid, table_is_bounded
+from rtcore.supervise import apply_event, clear_trips, start_run
+
+_COMMAND = int(EventKind.COMMAND)
+_RESET, _TARE, _START, _STOP, _SHUTDOWN = (
+    int(Opcode.RESET),
+    int(Opcode.TARE),
+    int(Opcode.START),
+    int(Opcode.STOP),
+    int(Opcode.SHUTDOWN),
+)
+_PRESSURISE, _DEPRESSURISE = int(Opcode.PRESSURISE), int(Opcode.DEPRESSURISE)
+_HOLD, _RESUME = int(Opcode.HOLD), int(Opcode.RESUME)
+_ADOPT_GAINS, _ADOPT_INTERLOCKS, _ADOPT_PROGRAM = (
+    int(Opcode.ADOPT_GAINS),
+    int(Opcode.ADOPT_INTERLOCKS),
+    int(Opcode.ADOPT_PROGRAM),
+)
+_ACCEPTED, _WRONG_MODE, _STALE, _EXPIRED, _REPLAYED, _UNKNOWN, _CAUSE, _INVALID, _NO_PROGRAM, _BUSY = (
+    int(Reply.ACCEPTED),
+    int(Reply.WRONG_MODE),
+    int(Reply.STALE_LEASE),
+    int(Reply.EXPIRED),
+    int(Reply.REPLAYED),
+    int(Reply.UNKNOWN),
+    int(Reply.CAUSE_PRESENT),
+    int(Reply.INVALID_BANK),
+    int(Reply.NO_PROGRAM),
+    int(Reply.BUSY),
+)
+_EVENT_RESET, _EVENT_PRESSURISE, _EVENT_DEPRESSURISE = (
+    int(Event.RESET),
+    int(Event.PRESSURISE),
+    int(Event.DEPRESSURISE),
+)
+_EVENT_START, _EVENT_HOLD, _EVENT_RESUME = int(Event.START), int(Event.HOLD), int(Event.RESUME)
+_EVENT_STOP, _EVENT_TRIP = int(Event.STOP), int(Event.TRIP)
+_MODE_TRIPPED, _MODE_OFF = int(Mode.TRIPPED), int(Mode.OFF)
+SEGMENTS_A_TICK = 32
+
+
+@kernel
+def _done(happened):
+    return _ACCEPTED if happened else _WRONG_MODE
+
+
+@kernel
+def _reset(core, block, block_address):
+    """Clear what is latched, where its cause is gone. Starts nothing."""
+    if core.violated != 0:
+        return _CAUSE
+    if core.mode == _MODE_TRIPPED:
+        apply_event(core, block_address, _EVENT_RESET)
+    clear_trips(core, block)
+    return _ACCEPTED
+
+
+@kernel
+def _tare(core):
+    """Make the mean of the unloaded load cell the new zero."""
+    if core.mode != _MODE_OFF or core.outputs.supply != SUPPLY_OFF:
+        return _WRONG_MODE
+    core.sample.tare_n = core.sample.untared_mean_n
+    return _ACCEPTED
+
+
+@kernel
+def _adopt_small(core, block, opcode, bank):
+    """Gains and interlocks: checked and adopted within this tick, whole or not at all."""
+    if not 0 <= bank <= 1:
+        return _INVALID
+    if is_run(core.mode):
+        return _WRONG_MODE
+    if opcode == _ADOPT_GAINS:
+        if not gains_are_valid(block.gains[bank]):
+            return _INVALID
+        block.active_gains = bank
+        adopt_gains(block.gains[bank], core.law, core.settings.period_s)
+        return _ACCEPTED
+    if not interlocks_are_valid(block.interlocks[bank]):
+        return _INVALID
+    block.active_interlocks = bank
+    core.violated_ticks[:] = 0
+    return _ACCEPTED
+
+
+@kernel
+def _check_next_segments(core, table, first, limit):
+    """Check a share of a table; -1 invalid, else how many segments of it are checked."""
+    last = min(table.count, first + SEGMENTS_A_TICK)
+    for i in range(first, last):
+        if not segment_is_valid(table.segments[i], i, limit, 0.5 / core.settings.period_s):
+            return -1
+    return last
+
+
+@kernel
+def _adopt_program(core, block, bank):
+    """Check a few segments each tick, adopt when all are good. BUSY meanwhile."""
+    if not 0 <= bank <= 1 or (bank == block.active_program and core.has_program != 0):
+        return _INVALID
+    if is_run(core.mode):
+        return _WRONG_MODE
+    program = block.programs[bank]
+    if not (table_is_bounded(program.force) and table_is_bounded(program.motion)):
+        return _INVALID
+    checked = core.checked_segments
+    forces = program.force.count
+    if checked < forces:
+        checked = _check_next_segments(core, program.force, checked, core.settings.force_limit_n)
+    else:
+        checked = _check_next_segments(
+            core, program.motion, checked - forces, core.settings.displacement_limit_m
+        )
+        checked = checked + forces if checked >= 0 else checked
+    if checked < 0:
+        core.checked_segments = 0
+        return _INVALID
+    core.checked_segments = checked
+    if checked < forces + program.motion.count:
+        return _BUSY
+    core.checked_segments = 0
+    block.active_program = bank
+    core.has_program = 1
+    return _ACCEPTED
+
+
+@kernel
+def _carry_out(core, block, block_address, opcode, argument):
+    if opcode == _RESET:
+        return _reset(core, block, block_address)
+    if opcode == _PRESSURISE:
+        if core.trips != 0:
+            return _CAUSE
+        return _done(apply_event(core, block_address, _EVENT_PRESSURISE))
+    if opcode == _DEPRESSURISE:
+        return _done(apply_event(core, block_address, _EVENT_DEPRESSURISE))
+    if opcode == _TARE:
+        return _tare(core)
+    if opcode == _START:
+        if core.has_program == 0:
+            return _NO_PROGRAM
+        if core.trips != 0:
+            return _CAUSE
+        program = block.programs[block.active_program]
+        return _done(start_run(core, program, block_address, _EVENT_START, argument))
+    if opcode == _HOLD:
+        return _done(apply_event(core, block_address, _EVENT_HOLD))
+    if opcode == _RESUME:
+        if core.trips != 0:
+            return _CAUSE
+        return _done(apply_event(core, block_address, _EVENT_RESUME))
+    if opcode == _STOP:
+        return _done(apply_event(core, block_address, _EVENT_STOP))
+    if opcode == _SHUTDOWN:
+        return _done(apply_event(core, block_address, _EVENT_TRIP))
+    if opcode == _ADOPT_GAINS or opcode == _ADOPT_INTERLOCKS:
+        return _adopt_small(core, block, opcode, argument)
+    if opcode == _ADOPT_PROGRAM:
+        return _adopt_program(core, block, argument)
+    return _UNKNOWN
+
+
+@kernel
+def take_command(core, block, block_address, now_ns):
+    """Take the next command, if there is one. Stopping needs neither lease nor haste."""
+    if not pending(block_address):
+        return
+    command = block.commands[core.commands_seen % COMMAND_SLOTS]
+    stops = command.opcode == _STOP or command.opcode == _SHUTDOWN
+    if command.sequence != core.commands_seen:
+        reply = _REPLAYED
+    elif now_ns > command.expires_ns and not stops and core.checked_segments == 0:
+        reply = _EXPIRED
+    elif command.lease < core.lease and not stops:
+        reply = _STALE
+    else:
+        core.lease = max(core.lease, command.lease)
+        reply = _carry_out(core, block, block_address, command.opcode, command.argument)
+    if reply != _BUSY:
+        core.commands_seen += 1
+        publish_event(block_address, core.tick, _COMMAND, command.opcode, float(reply), float(command.argument))
+        acknowledge(block_address, reply, core.tick)

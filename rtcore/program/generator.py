@@ -1,0 +1,218 @@
+"""The setpoint generator: walks a table of segments, closed-form within each, continuous between them.
+
+Time within a segment is a whole number of ticks and phase is computed from it, never accumulated, so nothing
+drifts. Holding freezes that time and fades the harmonic part to its mean, while the oscillator runs on; so a hold
+costs no cycle, counts none that was faded, and resumes by fading in again. Stopping fades everything to zero.
+"""
+
+import math
+
+import numpy as np
+
+from rtcore.compiled import kernel
+from rtcore.program.segments import MAX_DEPTH, Branch, Segment
+
+GENERATOR = np.dtype(
+    [
+        # where it is
+        ("segment", "i8"),
+        ("tick", "i8"),  # within the segment
+        ("ticks", "i8"),  # of the segment
+        ("depth", "i8"),
+        ("repeat_segment", "i8", (MAX_DEPTH,)),
+        ("repeat_pass", "i8", (MAX_DEPTH,)),
+        ("ended", "i8"),
+        # how the segment began
+        ("from_value", "f8"),
+        ("from_mean", "f8"),
+        ("from_amplitude", "f8"),
+        ("from_frequency_hz", "f8"),
+        ("from_phase", "f8"),  # cycles, 0…1
+        ("cycles_before", "i8"),  # counted in this block, before this segment
+        # fading
+        ("hold_ticks", "i8"),  # 0 running … hold_fade_ticks held
+        ("stop_ticks", "i8"),
+        # what it gives
+        ("value", "f8"),  # N or m
+        ("mean", "f8"),
+        ("amplitude", "f8"),
+        ("frequency_hz", "f8"),  # of the load, 0 where there is none
+        ("branch", "i8"),
+        ("block", "i8"),
+        ("cycle", "i8"),
+    ],
+    align=True,
+)
+
+MOST_SEGMENTS_A_TICK = 64  # a table whose segments take no time cannot keep the tick
+_END, _HOLD, _LINEAR = int(Segment.END), int(Segment.HOLD), int(Segment.LINEAR)
+_SMOOTH, _HARMONIC, _REPEAT = int(Segment.SMOOTH), int(Segment.HARMONIC), int(Segment.REPEAT)
+_EXCLUDED = int(Branch.EXCLUDED)
+
+
+@kernel
+def fade(ticks, of_ticks):
+    """Half a cosine from 1 at 0 to 0 at `of_ticks`."""
+    return 0.5 + 0.5 * math.cos(math.pi * ticks / of_ticks)
+
+
+@kernel
+def start(g, table, value, period_s):
+    """Begin a table at a setpoint of `value`."""
+    g.segment = 0
+    g.depth = 0
+    g.ended = 0
+    g.hold_ticks = 0
+    g.stop_ticks = 0
+    g.cycles_before = 0
+    g.block = -1
+    rest(g, value)
+    _enter(g, table.segments[0], period_s)
+
+
+@kernel
+def rest(g, value):
+    """No harmonic, setpoint at `value`."""
+    g.value = value
+    g.mean = value
+    g.amplitude = 0.0
+    g.frequency_hz = 0.0
+    g.from_phase = 0.0
+    g.branch = _EXCLUDED
+
+
+@kernel
+def _phase(g, s, tick, period_s):
+    """Phase (cycles) after so many ticks of a harmonic whose frequency moves linearly."""
+    t = tick * period_s
+    phase = g.from_phase + g.from_frequency_hz * t
+    if s.frequency_to_hz != g.from_frequency_hz:
+        phase += 0.5 * (s.frequency_to_hz - g.from_frequency_hz) * t * tick / g.ticks
+    return phase
+
+
+@kernel
+def _enter(g, s, period_s):
+    """Fix how the segment begins and how long it takes."""
+    g.tick = 0
+    g.ticks = s.ticks
+    g.from_value = g.value
+    if s.block != g.block:
+        g.cycles_before = 0
+        g.cycle = 0
+        g.block = s.block
+    g.branch = s.branch
+    if s.kind == _LINEAR and s.ticks == 0:
+        g.ticks = int(math.ceil(abs(s.target - g.value) / (s.rate_per_s * period_s) - 1e-9))
+    if s.kind == _HARMONIC:
+        if s.continues != 0:
+            g.from_mean = g.mean
+            g.from_amplitude = g.amplitude
+            g.from_frequency_hz = g.frequency_hz if g.frequency_hz > 0.0 else s.frequency_to_hz
+        else:
+            g.from_mean = g.value if math.isnan(s.mean_from) else s.mean_from
+            g.from_amplitude = s.amplitude_from
+            g.from_frequency_hz = s.frequency_from_hz
+            g.from_phase = s.phase_cycles
+
+
+@kernel
+def _evaluate(g, s, tick, period_s):
+    """Set mean, amplitude, frequency and value at a tick of the segment."""
+    share = tick / g.ticks if g.ticks > 0 else 1.0
+    if s.kind == _HARMONIC:
+        blend = 1.0 - fade(tick, g.ticks)
+        g.mean = g.from_mean + blend * (s.mean_to - g.from_mean)
+        g.amplitude = g.from_amplitude + blend * (s.amplitude_to - g.from_amplitude)
+        g.frequency_hz = g.from_frequency_hz + share * (s.frequency_to_hz - g.from_frequency_hz)
+        phase = _phase(g, s, tick, period_s)
+        g.value = g.mean + g.amplitude * math.sin(2.0 * math.pi * (phase - math.floor(phase)))
+        return
+    target = s.target
+    if s.kind == _HOLD or s.kind == _END:
+        rest(g, g.from_value if math.isnan(target) else target)
+    elif s.kind == _LINEAR:
+        rest(g, g.from_value + share * (target - g.from_value))
+    else:
+        blend = 1.0 - fade(tick, g.ticks) if g.ticks > 0 else 1.0
+        rest(g, g.from_value + blend * (target - g.from_value))
+    g.branch = s.branch
+
+
+@kernel
+def _leave(g, s, period_s):
+    """Set what the segment leaves behind: its value, phase and cycles at its last instant."""
+    _evaluate(g, s, g.ticks, period_s)
+    if s.kind == _HARMONIC:
+        phase = _phase(g, s, g.ticks, period_s)
+        if s.counts != 0:
+            g.cycles_before += int(math.floor(phase - g.from_phase + 0.5))
+        g.from_phase = phase - math.floor(phase)
+
+
+@kernel
+def _after_repeat(g, s):
+    """The segment that follows a REPEAT: back to its body, or on."""
+    top = g.depth - 1
+    if top >= 0 and g.repeat_segment[top] == g.segment:
+        g.repeat_pass[top] += 1
+    else:
+        top += 1
+        g.depth = top + 1
+        g.repeat_segment[top] = g.segment
+        g.repeat_pass[top] = 1
+    if g.repeat_pass[top] < s.times:
+        return s.jump
+    g.depth = top
+    return g.segment + 1
+
+
+@kernel
+def _settle(g, table, period_s):
+    """Go on to the segment that this tick belongs to."""
+    for _ in range(MOST_SEGMENTS_A_TICK):
+        s = table.segments[g.segment]
+        if s.kind == _END:
+            g.ended = 1
+            return
+        if s.kind == _REPEAT:
+            g.segment = _after_repeat(g, s)
+        elif g.tick >= g.ticks:
+            _leave(g, s, period_s)
+            g.segment += 1
+        else:
+            return
+        _enter(g, table.segments[g.segment], period_s)
+
+
+@kernel
+def generate(g, table, holding, stopping, hold_fade_ticks, stop_fade_ticks, period_s):
+    """One tick of setpoint: the result is in `g.value`; True once a stop has faded to zero.
+
+    `holding` and `stopping` are what the mode asks for in this tick.
+    """
+    if stopping:
+        g.stop_ticks += 1
+    elif holding:
+        g.hold_ticks = min(g.hold_ticks + 1, hold_fade_ticks)
+    elif g.hold_ticks > 0:
+        g.hold_ticks -= 1
+
+    frozen = stopping or g.hold_ticks > 0
+    if not frozen and g.ended == 0:
+        _settle(g, table, period_s)
+    s = table.segments[g.segment]
+    _evaluate(g, s, g.tick, period_s)
+    g.cycle = g.cycles_before
+    if s.kind == _HARMONIC and s.counts != 0:
+        g.cycle += int(math.floor(g.from_frequency_hz * g.tick * period_s + 1e-9))
+    if g.hold_ticks > 0:
+        g.value = g.mean + (g.value - g.mean) * fade(g.hold_ticks, hold_fade_ticks)
+    if g.stop_ticks > 0:
+        g.value *= fade(min(g.stop_ticks, stop_fade_ticks), stop_fade_ticks)
+    if frozen:
+        phase = g.from_phase + g.frequency_hz * period_s
+        g.from_phase = phase - math.floor(phase)
+    elif g.ended == 0:
+        g.tick += 1
+    return g.stop_ticks >= stop_fade_ticks

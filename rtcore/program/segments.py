@@ -1,0 +1,58 @@
+"""The load program: a table of segments that the setpoint generator walks through.
+
+A segment picks the setpoint up where the one before left it, so a table cannot describe a jump
+except by a `SMOOTH` segment of no duration, which is what a step is.
+"""
+
+from enum import IntEnum
+
+import numpy as np
+
+MAX_SEGMENTS = 4096
+MAX_DEPTH = 8  # repeats within repeats
+
+
+class Segment(IntEnum):
+    """What a segment does with the setpoint."""
+
+    END = 0  # the program is over; the setpoint stays
+    HOLD = 1  # stay at `target`, NaN: where it is
+    LINEAR = 2  # to `target` in `ticks`, or at `rate_per_s` where ticks is 0
+    SMOOTH = 3  # to `target` along half a cosine in `ticks`; a step where ticks is 0
+    HARMONIC = 4  # mean, amplitude and frequency move from their first to their second values
+    REPEAT = 5  # back to segment `jump`, `times` passes in all
+
+
+class Branch(IntEnum):
+    """What the kinematic compensation does during a segment."""
+
+    EXCLUDED = 0
+    WITHOUT_NOTCH = 1
+    WITH_NOTCH = 2
+
+
+SEGMENT = np.dtype(
+    [
+        ("kind", "i4"),
+        ("block", "i2"),  # block of the test that this segment serves
+        ("branch", "i2"),  # Branch
+        ("continues", "i2"),  # harmonic: 1 picks up mean, amplitude, frequency and phase
+        ("counts", "i2"),  # harmonic: 1 where its cycles are data, 0 while it tapers
+        ("jump", "i4"),
+        ("times", "i8"),
+        ("ticks", "i8"),
+        ("target", "f8"),  # N or m
+        ("rate_per_s", "f8"),  # N/s or m/s
+        ("mean_from", "f8"),  # NaN: the setpoint as it is
+        ("mean_to", "f8"),
+        ("amplitude_from", "f8"),
+        ("amplitude_to", "f8"),
+        ("frequency_from_hz", "f8"),
+        ("frequency_to_hz", "f8"),
+        ("phase_cycles", "f8"),  # where a harmonic starts that does not continue
+    ],
+    align=True,
+)
+
+TABLE = np.dtype([("count", "i8"), ("segments", SEGMENT, (MAX_SEGMENTS,))], align=True)
+PROGRAM = np.dtype([("force", TABLE), ("motion", TABLE)], align=True)

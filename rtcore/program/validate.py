@@ -1,0 +1,49 @@
+"""The loop's own check of a program before it adopts it: a table that could lead the generator astray is refused."""
+
+import math
+
+from rtcore.compiled import kernel
+from rtcore.program.segments import MAX_SEGMENTS, Segment
+
+_END, _LINEAR, _HARMONIC, _REPEAT = (
+    int(Segment.END),
+    int(Segment.LINEAR),
+    int(Segment.HARMONIC),
+    int(Segment.REPEAT),
+)
+
+
+@kernel
+def table_is_bounded(table):
+    """Whether a table has an END within its count, which is within the bank."""
+    if table.count < 1 or table.count > MAX_SEGMENTS:
+        return False
+    return table.segments[table.count - 1].kind == _END
+
+
+@kernel
+def _within(value, limit):
+    return abs(value) <= limit
+
+
+@kernel
+def segment_is_valid(s, index, limit, frequency_limit_hz):
+    """Whether one segment keeps within the limits (N or m, Hz) and jumps only backwards."""
+    if s.kind < _END or s.kind > _REPEAT or s.ticks < 0:
+        return False
+    if s.kind == _REPEAT:
+        return 0 <= s.jump < index and s.times >= 1
+    if s.kind == _HARMONIC:
+        if s.ticks < 1 or not (0.0 < s.frequency_to_hz < frequency_limit_hz):
+            return False
+        if not _within(abs(s.mean_to) + abs(s.amplitude_to), limit):
+            return False
+        if s.continues != 0:
+            return True
+        mean = 0.0 if math.isnan(s.mean_from) else s.mean_from
+        started = 0.0 < s.frequency_from_hz < frequency_limit_hz and math.isfinite(s.phase_cycles)
+        return started and _within(abs(mean) + abs(s.amplitude_from), limit)
+    if s.kind == _LINEAR and s.ticks == 0 and not (s.rate_per_s > 0.0):
+        return False
+    keeps = s.kind != _LINEAR and math.isnan(s.target)
+    return keeps or _within(s.target, limit)

@@ -1,0 +1,104 @@
+"""Mode: what detectors, the program's end and commands do to the state of the loop."""
+
+import numpy as np
+
+from rtcore.codes import EventKind
+from rtcore.compiled import kernel
+from rtcore.interlocks import Action
+from rtcore.io import SUPPLY_HIGH, SUPPLY_LOW, SUPPLY_OFF
+from rtcore.memory.rings import publish_event
+from rtcore.modes import NO_TRANSITION, Event, Mode, is_pressurised, is_run, next_mode
+from rtcore.program.generator import rest, start
+
+_MODE, _ENDED = int(EventKind.MODE), int(EventKind.PROGRAM_ENDED)
+_STOP_ACTION, _SHUTDOWN_ACTION, _HOLD_ACTION = int(Action.STOP), int(Action.SHUTDOWN), int(Action.HOLD)
+_TRIPPED, _OFF, _PRESSURISING, _READY = (
+    int(Mode.TRIPPED),
+    int(Mode.OFF),
+    int(Mode.PRESSURISING),
+    int(Mode.READY),
+)
+_RUNNING, _HOLDING, _STOPPING = int(Mode.RUNNING), int(Mode.HOLDING), int(Mode.STOPPING)
+_TRIP, _STOP, _HOLD, _STOPPED = int(Event.TRIP), int(Event.STOP), int(Event.HOLD), int(Event.STOPPED)
+_PRESSURE_REACHED = int(Event.PRESSURE_REACHED)
+RUN_TAIL_S = 0.5  # a run that trips is recorded this much longer
+
+
+@kernel
+def apply_event(core, block_address, event):
+    """Move the mode; False where the event means nothing in this one."""
+    after = next_mode(core.mode, event)
+    if after == NO_TRANSITION:
+        return False
+    if after != core.mode:
+        publish_event(block_address, core.tick, _MODE, after, float(core.mode), float(event))
+        core.mode = after
+        core.mode_ticks = 0
+    if not is_run(after):
+        rest(core.force, 0.0)
+        core.force.block = -1
+        core.force.cycle = 0
+        core.trip_after_stop = 0
+        if after != _TRIPPED:
+            core.run = 0
+    return True
+
+
+@kernel
+def start_run(core, program, block_address, event, run):
+    """Begin the adopted program; the setpoint starts where it is."""
+    if not apply_event(core, block_address, event):
+        return False
+    core.run = run
+    core.program_ended = 0
+    start(core.force, program.force, 0.0, core.settings.period_s)
+    start(core.motion, program.motion, core.motion.value, core.settings.period_s)
+    return True
+
+
+@kernel
+def react(core, block_address, action):
+    """What the strongest detector that tripped in this tick demands."""
+    if action == _SHUTDOWN_ACTION or (action == _STOP_ACTION and not is_run(core.mode)):
+        apply_event(core, block_address, _TRIP)
+    elif action == _STOP_ACTION:
+        apply_event(core, block_address, _STOP)
+        core.trip_after_stop = 1
+    elif action == _HOLD_ACTION:
+        apply_event(core, block_address, _HOLD)
+
+
+@kernel
+def progress(core, block_address):
+    """What follows from the state of the rig itself: pressure reached, program ended, load taken off."""
+    core.mode_ticks += 1
+    settings = core.settings
+    if core.mode == _PRESSURISING and core.inputs.supply_pressure_pa >= settings.ready_pa:
+        apply_event(core, block_address, _PRESSURE_REACHED)
+    elif core.mode == _RUNNING and core.force.ended != 0:
+        core.program_ended = 1
+        publish_event(block_address, core.tick, _ENDED, core.run, 0.0, 0.0)
+        apply_event(core, block_address, _STOP)
+    elif core.mode == _STOPPING and core.force.stop_ticks >= settings.stop_fade_ticks:
+        apply_event(core, block_address, _TRIP if core.trip_after_stop != 0 else _STOPPED)
+    elif core.mode == _TRIPPED and core.mode_ticks * settings.period_s > RUN_TAIL_S:
+        core.run = 0
+
+
+@kernel
+def wanted_supply(core):
+    """Off, low or high: low first, until the hoses and chambers are filled."""
+    if not is_pressurised(core.mode):
+        return SUPPLY_OFF
+    settings = core.settings
+    filled = core.inputs.supply_pressure_pa >= settings.low_reached_pa and core.mode_ticks >= settings.low_ticks
+    if core.mode == _PRESSURISING and not filled and core.outputs.supply != SUPPLY_HIGH:
+        return SUPPLY_LOW
+    return SUPPLY_HIGH
+
+
+@kernel
+def clear_trips(core, block):
+    """Forget what is latched; the caller has made sure that no cause is present."""
+    core.trips = np.uint64(0)
+    block.first_out = -1

@@ -1,0 +1,122 @@
+"""One tick of the loop, in the one order in which everything happens.
+
+sample → check → mode → setpoint → law → limit → actuate → publish
+"""
+
+from rtcore.check import check_detectors, collect_quantities
+from rtcore.channels import TELEMETRY
+from rtcore.codes import EventKind
+from rtcore.compiled import carray, kernel, pointer
+from rtcore.control.law import closed_loop, open_loop
+from rtcore.memory.rings import next_record_address, publish_event, publish_record
+from rtcore.memory.snapshot import write_snapshot
+from rtcore.modes import Mode, is_closed_loop, is_run
+from rtcore.obey import take_command
+from rtcore.program.generator import generate, rest
+from rtcore.sample import take_sample
+from rtcore.supervise import progress, react, wanted_supply
+
+_BLOCK, _MISSED = int(EventKind.BLOCK), int(EventKind.DEADLINES_MISSED)
+_HOLDING, _STOPPING, _READY = int(Mode.HOLDING), int(Mode.STOPPING), int(Mode.READY)
+RETURN_M_S = 0.01  # at which the unit under test goes back to its middle when the rig is ready
+
+
+@kernel
+def tick(core, block, block_address, now_ns, wakeup_latency_ns, tick_time_ns, missed):
+    """From the inputs in `core.inputs` to the outputs in `core.outputs`, and a record of both.
+
+    Times in ns; `missed` deadlines were skipped just before this tick. Allocates nothing and waits for nobody.
+    """
+    gains = block.gains[block.active_gains]
+    settings = core.settings
+    core.deadlines_missed += missed
+    if missed > 0:
+        publish_event(block_address, core.tick, _MISSED, missed, float(wakeup_latency_ns), 0.0)
+
+    # sample
+    take_sample(settings, core.inputs, core.sample)
+
+    # check
+    collect_quantities(core, (now_ns - block.app_heartbeat_ns) * 1e-9, missed)
+    action = check_detectors(block.interlocks[block.active_interlocks], core, block, block_address)
+
+    # mode
+    react(core, block_address, action)
+    progress(core, block_address)
+    take_command(core, block, block_address, now_ns)
+
+    # setpoint
+    set_points(core, block.programs[block.active_program], block_address)
+
+    # law, limit
+    if is_closed_loop(core.mode):
+        core.outputs.valve_command = closed_loop(
+            gains,
+            core.law,
+            core.force.value,
+            core.sample.force_n,
+            core.sample.velocity_m_s,
+            core.force.frequency_hz,
+            core.force.branch,
+            settings.period_s,
+        )
+    else:
+        open_loop(core.law, core.force.value, core.sample.force_n)
+        core.outputs.valve_command = 0.0
+
+    # actuate
+    core.outputs.displacement_command_m = core.motion.value
+    core.outputs.supply = wanted_supply(core)
+
+    # publish
+    address = next_record_address(block_address)
+    fill_record(carray(pointer(address), 1, TELEMETRY)[0], core, wakeup_latency_ns, tick_time_ns)
+    write_snapshot(block_address, address)
+    publish_record(block_address)
+    core.tick += 1
+
+
+@kernel
+def set_points(core, program, block_address):
+    """Force and motion commanded in this tick."""
+    settings = core.settings
+    if not is_run(core.mode):
+        if core.mode == _READY:
+            step = RETURN_M_S * settings.period_s
+            rest(core.motion, core.motion.value - min(max(core.motion.value, -step), step))
+        return
+    before = core.force.block
+    holding, stopping = core.mode == _HOLDING, core.mode == _STOPPING
+    hold, stop, period_s = settings.hold_fade_ticks, settings.stop_fade_ticks, settings.period_s
+    generate(core.force, program.force, holding, stopping, hold, stop, period_s)
+    generate(core.motion, program.motion, holding, stopping, hold, stop, period_s)
+    if core.force.block != before:
+        publish_event(block_address, core.tick, _BLOCK, core.force.block, float(core.run), 0.0)
+
+
+@kernel
+def fill_record(record, core, wakeup_latency_ns, tick_time_ns):
+    """Everything that is known of this tick."""
+    record.tick = core.tick
+    record.time_s = core.tick * core.settings.period_s
+    record.trips = core.trips
+    record.run = core.run
+    record.force_command_n = core.force.value
+    record.force_n = core.sample.force_n
+    record.force_error_n = core.force.value - core.sample.force_n
+    record.displacement_m = core.sample.displacement_m
+    record.displacement_command_m = core.motion.value
+    record.velocity_m_s = core.sample.velocity_m_s
+    record.valve_command = core.outputs.valve_command
+    record.spool_position = core.inputs.spool_position
+    record.pressure_1_pa = core.inputs.pressure_1_pa
+    record.pressure_2_pa = core.inputs.pressure_2_pa
+    record.supply_pressure_pa = core.inputs.supply_pressure_pa
+    record.compensation_velocity = core.law.compensation.velocity_term
+    record.compensation_acceleration = core.law.compensation.acceleration_term
+    record.wakeup_latency_s = wakeup_latency_ns * 1e-9
+    record.tick_time_s = tick_time_ns * 1e-9
+    record.cycle = core.force.cycle
+    record.deadlines_missed = core.deadlines_missed
+    record.block = core.force.block
+    record.mode = core.mode

@@ -1,0 +1,141 @@
+"""The virtual clock: the very tick of the loop, on the simulated rig, as fast as the processor goes.
+
+The same seed gives the same run, bit for bit. Commands pass through the same ring as on the real clock.
+"""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from rtcore.channels import TELEMETRY
+from rtcore.codes import Opcode, Reply
+from rtcore.compiled import carray, entry, pointer
+from rtcore.io.simulated import SimulatedIo, cycle
+from rtcore.memory.commands import acknowledgement, post
+from rtcore.memory.layout import BLOCK
+from rtcore.memory.rings import event_reader
+from rtcore.memory.segment import private_block
+from rtcore.modes import Mode
+from rtcore.rig.parameters import RigParameters, load_rig
+from rtcore.rig.plant import STATES
+from rtcore.rig.world import WORLD
+
+RING_SECONDS = 1.0
+PERIOD_S = 250e-6
+
+
+@entry
+def run_ticks(block_address, core_address, world_address, first_tick, ticks, app_beats, states_address):
+    """Run so many ticks on end; where `states_address` is not 0, the plant's state at each goes there."""
+    block = carray(pointer(block_address), 1, BLOCK)[0]
+    world = carray(pointer(world_address), 1, WORLD)[0]
+    for k in range(ticks):
+        now_ns = (first_tick + k) * block.period_ns
+        if app_beats:
+            block.app_heartbeat_ns = now_ns
+        cycle(block_address, core_address, world_address, now_ns, 0, 0, 0)
+        if states_address != 0:
+            states = carray(pointer(states_address), (ticks, STATES), np.float64)
+            states[k, :] = world.y
+
+
+class Virtual:
+    """A rig and its loop on a virtual clock.
+
+    `gains` is a GAINS record, `interlocks` an INTERLOCKS record. `app_beats` is whether somebody is there to
+    keep the heartbeat; `keep_states` keeps the plant's state at each tick in `states`, (n, STATES) float64.
+    """
+
+    def __init__(
+        self,
+        gains: Any,
+        interlocks: Any,
+        rig: RigParameters | None = None,
+        seed: int = 1,
+        period_s: float = PERIOD_S,
+        settings: dict[str, float] | None = None,
+    ) -> None:
+        self.block = private_block(round(period_s * 1e9), RING_SECONDS)
+        self.io = SimulatedIo(rig or load_rig(), seed, self.block, settings)
+        self.period_s = period_s
+        self.app_beats = True
+        self.keep_states = False
+        self.states: npt.NDArray[np.float64] = np.empty((0, STATES))
+        self._events = event_reader(self.block)
+        self.block.fields["gains"][0] = gains
+        self.block.fields["interlocks"][0] = interlocks
+        self.command(Opcode.ADOPT_GAINS, 0)
+        self.command(Opcode.ADOPT_INTERLOCKS, 0)
+
+    @property
+    def tick(self) -> int:
+        return int(self.io.core["tick"])
+
+    @property
+    def mode(self) -> Mode:
+        return Mode(int(self.io.core["mode"]))
+
+    def advance(self, ticks: int) -> npt.NDArray[Any]:
+        """Run so many ticks; returns their telemetry, (ticks,) TELEMETRY."""
+        records = np.empty(ticks, TELEMETRY)
+        states = np.empty((ticks if self.keep_states else 0, STATES))
+        done = 0
+        slots = len(self.block.ring)
+        while done < ticks:
+            count = min(ticks - done, slots)
+            first = self.tick
+            place = states[done:].ctypes.data if self.keep_states else 0
+            run_ticks(*self.io.addresses, first, count, self.app_beats, place)
+            slot = first % slots
+            until_end = min(count, slots - slot)
+            records[done : done + until_end] = self.block.ring[slot : slot + until_end]
+            records[done + until_end : done + count] = self.block.ring[: count - until_end]
+            done += count
+        self.states = states
+        return records
+
+    def command(self, opcode: Opcode, argument: int = 0) -> Reply:
+        """Post a command and run until it is answered."""
+        sequence = post(self.block, opcode, argument)
+        while (answer := acknowledgement(self.block, sequence)) is None:
+            self.advance(1)
+        return Reply(answer[0])
+
+    def load_program(self, program: Any) -> Reply:
+        """Fill the idle bank with a PROGRAM record and have the loop adopt it."""
+        bank = 1 - int(self.block.fields["active_program"])
+        self.block.fields["programs"][bank] = program
+        return self.command(Opcode.ADOPT_PROGRAM, bank)
+
+    def bring_to_ready(self, within_s: float = 20.0) -> None:
+        """Reset, pressurise, and wait. Raises RuntimeError where the rig does not become ready."""
+        for opcode in (Opcode.RESET, Opcode.PRESSURISE):
+            reply = self.command(opcode)
+            if reply != Reply.ACCEPTED:
+                raise RuntimeError(f"{opcode.name.lower()} was refused: {reply.name.lower()}")
+        for _ in range(round(within_s / 0.1)):
+            self.advance(round(0.1 / self.period_s))
+            if self.mode == Mode.READY:
+                return
+        raise RuntimeError(f"not ready within {within_s:g} s but {self.mode.name.lower()}")
+
+    def run(self, argument: int = 1, at_most_s: float = 3600.0) -> npt.NDArray[Any]:
+        """Start what is loaded and run it to its end; returns the ticks that belong to the run.
+
+        Raises RuntimeError where the start is refused.
+        """
+        reply = self.command(Opcode.START, argument)
+        if reply != Reply.ACCEPTED:
+            raise RuntimeError(f"start was refused: {reply.name.lower()}")
+        first = self.block.ring[(self.tick - 1) % len(self.block.ring)].copy()
+        parts = [np.array([first])]
+        step = round(0.5 / self.period_s)
+        while parts[-1][-1]["run"] == argument and len(parts) * 0.5 < at_most_s:
+            parts.append(self.advance(step))
+        records = np.concatenate(parts)
+        return records[records["run"] == argument]
+
+    def events(self) -> npt.NDArray[Any]:
+        """Events since the last call, (n,) EVENT."""
+        return self._events.read().records
