@@ -1,4 +1,4 @@
-"""The loop process: arguments, single-loop lock, real-time conditions, signals. `python -m rtcore --help`."""
+"""The loop process: arguments, lock, real-time conditions, signals. `python -m rtcore --help`."""
 
 import argparse
 import logging

@@ -14,7 +14,7 @@ _HEARTBEAT = offset_of(BLOCK, "loop_heartbeat_ns")
 
 Wait = Callable[[int, int], int]  # deadline_ns, margin_ns → woke_ns
 Cycle = Callable[[int, int, int, int], None]  # now_ns, wakeup_latency_ns, tick_time_ns, missed
-Account = Callable[[int, int, int, int], int]  # address, deadline_ns, woke_ns, latency_ns → tick time
+Account = Callable[[int, int, int, int], int]  # address, deadline_ns, woke_ns, latency_ns
 
 
 def keep_time(
@@ -56,12 +56,12 @@ def _bin_of(time_ns: int) -> int:
 def account_until(
     block_address: int, deadline_ns: int, woke_ns: int, latency_ns: int, done_ns: int
 ) -> int:
-    """Enter a tick that ended at `done_ns` into the block's figures. Returns its tick time in ns."""
+    """Enter a tick that ended at `done_ns` into the block's figures. Returns its time in ns."""
     block = carray(pointer(block_address), 1, BLOCK)[0]
     tick_time_ns = done_ns - woke_ns
     block.wakeup_histogram[_bin_of(latency_ns)] += 1
     block.tick_time_histogram[_bin_of(tick_time_ns)] += 1
-    if done_ns >= deadline_ns + block.period_ns:
+    if done_ns > deadline_ns + block.period_ns:
         block.late_ticks += 1
     store_release(block_address + _HEARTBEAT, done_ns)
     return int(tick_time_ns)
@@ -69,7 +69,7 @@ def account_until(
 
 @kernel
 def account(block_address: int, deadline_ns: int, woke_ns: int, latency_ns: int) -> int:
-    """Enter a tick that ends now into the block's figures. Returns its tick time in ns."""
+    """Enter a tick that ends now into the block's figures. Returns its time in ns."""
     return account_until(block_address, deadline_ns, woke_ns, latency_ns, now_ns())
 
 

@@ -1,4 +1,4 @@
-"""The real-time conditions of a process: asked for one by one, none of them fatal, each with its reason.
+"""The real-time conditions of a process: each asked for, none fatal, each with its reason.
 
 They outlive the calls: what was had is held until the process ends.
 """
@@ -85,7 +85,7 @@ def pin_to_cpu(cpu: int | None = None) -> Condition:
 
 
 def hold_processor_awake(device: Path = LATENCY_DEVICE) -> Condition:
-    """No deep sleep states: the kernel keeps them off for as long as the device is held open at 0."""
+    """No deep sleep states: the kernel keeps them off while the device is held open at 0."""
     name = "cpu_dma_latency"
     try:
         descriptor = os.open(device, os.O_RDWR | os.O_CLOEXEC)  # never closed: see above
