@@ -2,10 +2,11 @@
 
 import json
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import Self
 
 import numpy as np
 import numpy.typing as npt
@@ -27,18 +28,29 @@ class LoopFigures:
     tick_time: Counts
     late_ticks: int
     deadlines_missed: int
-    conditions: list[Condition]
+    conditions: tuple[Condition, ...]
 
     @property
     def ticks(self) -> int:
         """How many ticks the loop has executed."""
         return int(self.wakeup.sum())
 
+    def __add__(self, other: Self) -> Self:
+        """Both together; they were measured under the same conditions."""
+        return replace(
+            self,
+            wakeup=self.wakeup + other.wakeup,
+            tick_time=self.tick_time + other.tick_time,
+            late_ticks=self.late_ticks + other.late_ticks,
+            deadlines_missed=self.deadlines_missed + other.deadlines_missed,
+        )
+
 
 def quantile_s(counts: Counts, share: float) -> float | None:
-    """The time (s) that this share of the counts does not exceed, interpolated within its bin.
+    """The time (s) that this share (0 < share ≤ 1) of the counts does not exceed.
 
-    None where there is no count, or where it lies in the last bin, which has no upper edge.
+    It is interpolated within its bin. None where there is no count, or where it lies in the last
+    bin, which has no upper edge.
     """
     up_to = np.cumsum(counts)
     rank = share * up_to[-1]
@@ -57,7 +69,7 @@ def longest_s(counts: Counts) -> float | None:
     return float((filled[-1] + 1) * HISTOGRAM_BIN_S)
 
 
-def figures_of(block: Block, conditions: list[Condition]) -> LoopFigures:
+def figures_of(block: Block, conditions: tuple[Condition, ...]) -> LoopFigures:
     """A copy of the figures that a loop keeps in its block."""
     fields = block.fields
     return LoopFigures(
@@ -73,7 +85,7 @@ def read_figures(path: Path) -> LoopFigures:
     """The figures of the loop whose block is at `path`. Raises `BlockError`."""
     block = attach_block(path)
     conditions = json.loads(block.fields["conditions"] or b"[]")
-    return figures_of(block, [Condition(**condition) for condition in conditions])
+    return figures_of(block, tuple(Condition(**condition) for condition in conditions))
 
 
 class _IdleCycle:
@@ -91,10 +103,15 @@ class _IdleCycle:
         self.missed += missed
 
 
-def _measure(seconds: float, period_ns: int, margin_ns: int, cpu: int | None) -> LoopFigures:
-    block = private_block(period_ns, seconds=0.01)
+@cache
+def _conditions_of_this_process(cpu: int | None) -> tuple[Condition, ...]:
     warm_up()
-    conditions = take_all(cpu)
+    return tuple(take_all(cpu))
+
+
+def _measure(seconds: float, period_ns: int, margin_ns: int, cpu: int | None) -> LoopFigures:
+    conditions = _conditions_of_this_process(cpu)
+    block = private_block(period_ns, seconds=0.01)
     idle = _IdleCycle(round(seconds * 1e9 / period_ns))
     keep_time(
         idle,
@@ -110,13 +127,23 @@ def _measure(seconds: float, period_ns: int, margin_ns: int, cpu: int | None) ->
     return figures_of(block, conditions)
 
 
-def measure_wakeups(
-    seconds: float, *, period_ns: int = 250_000, margin_ns: int = 60_000, cpu: int | None = None
-) -> LoopFigures:
-    """Wake up once a period for so long, under all conditions to be had, with no tick behind it.
+class WakeupProbe:
+    """Wakes up once a period under all conditions to be had, with no tick behind it.
 
     A process of its own does it, for real-time conditions outlive the call that took them.
     """
-    arguments: tuple[Any, ...] = (seconds, period_ns, margin_ns, cpu)
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-        return pool.submit(_measure, *arguments).result()
+
+    def __init__(self, period_ns: int = 250_000, cpu: int | None = None) -> None:
+        self.period_ns = period_ns
+        self.cpu = cpu
+        self._pool = ProcessPoolExecutor(1, mp_context=get_context("spawn"))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._pool.shutdown()
+
+    def measure(self, seconds: float, margin_ns: int) -> LoopFigures:
+        """The figures of so many seconds."""
+        return self._pool.submit(_measure, seconds, self.period_ns, margin_ns, self.cpu).result()

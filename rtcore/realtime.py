@@ -70,10 +70,15 @@ def lock_memory() -> Condition:
     return Condition(name, True, "all pages, present and future")
 
 
+def allowed_cpus() -> list[int]:
+    """The processors that this process may use."""
+    return sorted(os.sched_getaffinity(0))
+
+
 def pin_to_cpu(cpu: int | None = None) -> Condition:
     """One processor only: `cpu`, or the last of those that this process may use."""
     name = "affinity"
-    allowed = sorted(os.sched_getaffinity(0))
+    allowed = allowed_cpus()
     chosen = allowed[-1] if cpu is None else cpu
     try:
         os.sched_setaffinity(0, {chosen})
