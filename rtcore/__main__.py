@@ -56,11 +56,12 @@ def run(options: argparse.Namespace) -> None:
             io = SimulatedIo(rig, options.seed, block)
             io.warm_up()
             warm_up()
-            prepare(block, options)
+            take_conditions(block, options)
+            log.info("running: period %d µs, block %s", options.period_us, options.block.name)
+            started_ns = sign(block)
             staged.replace(options.block)
         finally:
             staged.unlink(missing_ok=True)
-        log.info("running: period %d µs, block %s", options.period_us, options.block)
         try:
             keep_time(
                 running,
@@ -68,23 +69,29 @@ def run(options: argparse.Namespace) -> None:
                 io.cycle,
                 account,
                 block_address=block.address,
-                start_ns=now_ns(),
+                start_ns=started_ns,
                 period_ns=period_ns,
                 margin_ns=options.margin_us * 1000,
             )
         finally:
             io.close()
-        log.info("ended after %d ticks", block.fields["snapshot"]["tick"])
+        log.info("ended after %d ticks", block.fields["telemetry_published"])
 
 
-def prepare(block: Block, options: argparse.Namespace) -> None:
-    """Take the real-time conditions and sign the block as this life of the loop."""
+def take_conditions(block: Block, options: argparse.Namespace) -> None:
+    """Take the real-time conditions, and tell what was had in the log and the block."""
     conditions = take_all(options.cpu, options.priority)
     for name, had, reason in conditions:
         log.log(logging.INFO if had else logging.WARNING, "%s: %s", name, reason)
     block.fields["conditions"] = as_json(conditions)
+
+
+def sign(block: Block) -> int:
+    """Sign the block as this life of the loop. Returns when it began, in ns."""
+    started_ns = now_ns()
     block.fields["loop_pid"] = os.getpid()
-    block.fields["loop_started_ns"] = block.fields["loop_heartbeat_ns"] = now_ns()
+    block.fields["loop_started_ns"] = block.fields["loop_heartbeat_ns"] = started_ns
+    return started_ns
 
 
 def main() -> int:

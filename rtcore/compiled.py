@@ -21,6 +21,7 @@ __all__ = [
     "carray",
     "entry",
     "fence",
+    "inlined",
     "kernel",
     "load_acquire",
     "offset_of",
@@ -34,6 +35,12 @@ __all__ = [
 def kernel(function: F) -> F:
     """Compile a pure kernel. Never fastmath: it deletes NaN checks. Division by zero gives inf, as in C."""
     compiled: F = njit(cache=True, error_model="numpy")(function)
+    return compiled
+
+
+def inlined(function: F) -> F:
+    """Compile a small kernel into its callers: in the plant's equations calls would cost as much as the work."""
+    compiled: F = njit(cache=True, error_model="numpy", forceinline=True, fastmath={"contract"})(function)
     return compiled
 
 

@@ -1,10 +1,6 @@
 """The hydraulic fluid: liquid with free air, density and bulk modulus from one function."""
 
-import math
-
-import numpy as np
-
-from rtcore.compiled import kernel
+from rtcore.compiled import inlined, kernel
 from rtcore.rig.plant import FLUID_POINTS, FLUID_STEP_PA
 
 LOWEST_PRESSURE_PA = 1e3  # below it the oil is vapour, which this model does not follow
@@ -30,7 +26,7 @@ def tabulate_fluid(plant):
         plant["fluid_table"][i] = v, slope * FLUID_STEP_PA
 
 
-@kernel
+@inlined
 def specific_volume(plant, pressure_pa):
     """(v, dv/dp) as `specific_volume_law`, by cubic Hermite interpolation of its table.
 
@@ -49,8 +45,3 @@ def specific_volume(plant, pressure_pa):
     v = a + t * (da + t * (c2 + t * c3))
     return v, (da + t * (2.0 * c2 + t * 3.0 * c3)) * (1.0 / FLUID_STEP_PA)
 
-
-@kernel
-def orifice_flow(drop_pa, r, k):
-    """Flow (m³/s) at which drop = r Q + k Q|Q|: laminar near zero, turbulent far from it."""
-    return 2.0 * drop_pa / (r + math.sqrt(r * r + 4.0 * k * abs(drop_pa)))

@@ -1,14 +1,24 @@
-"""The plant over one tick: classical Runge-Kutta, a fixed number of substeps, inputs held."""
+"""The plant over one tick, inputs held: classical Runge-Kutta, in steps as fine as each part needs.
+
+The valve depends on nothing behind it, so it moves first and finer: it has the stops and follows the jumps of
+the held command. Where the piston turns round within the tick, friction asks for finer steps of the rest.
+"""
 
 import numpy as np
 
 from rtcore.compiled import kernel
-from rtcore.rig.derivatives import derivatives
-from rtcore.rig.plant import FLOWS, G_S, G_T, P_S, P_T, STATES
+from rtcore.rig.derivatives import rig_derivatives
+from rtcore.rig.plant import FLOWS, G_S, G_T, P_1, P_S, P_T, STATES, U_VALVE, V_B, V_F, V_R, X_F, X_S
+from rtcore.rig.servovalve import spool_motion
 
 WORK = np.dtype(
     [("q", "f8", (FLOWS,)), *((k, "f8", (STATES,)) for k in ("k1", "k2", "k3", "k4", "z"))], align=True
 )
+REST = P_1  # the states from here on are behind the spool
+NEAR_STOP = 0.8  # of the flapper's travel
+FINER_AT_STOP = 3
+FINER_AT_TURN = 2
+TURN = 8.0  # widths of the friction's turn, on either side
 
 
 @kernel
@@ -21,21 +31,55 @@ def settle_gas(plant, y):
 
 
 @kernel
+def move_valve(plant, x_f, v_f, x_s, command, h, steps):
+    """(x_f, v_f, x_s) after so many steps of `h` seconds."""
+    half = 0.5 * h
+    for _ in range(steps):
+        a1, s1 = spool_motion(plant, x_f, v_f, x_s, command)
+        v2 = v_f + half * a1
+        a2, s2 = spool_motion(plant, x_f + half * v_f, v2, x_s + half * s1, command)
+        v3 = v_f + half * a2
+        a3, s3 = spool_motion(plant, x_f + half * v2, v3, x_s + half * s2, command)
+        v4 = v_f + h * a3
+        a4, s4 = spool_motion(plant, x_f + h * v3, v4, x_s + h * s3, command)
+        x_f += h / 6.0 * (v_f + 2.0 * (v2 + v3) + v4)
+        v_f += h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4)
+        x_s += h / 6.0 * (s1 + 2.0 * (s2 + s3) + s4)
+    return x_f, v_f, x_s
+
+
+@kernel
+def piston_turns(plant, y, dy, duration_s):
+    """Whether the piston's slip passes through the steep part of the friction, and passes quickly."""
+    change = abs(dy[V_R] - dy[V_B]) * duration_s
+    near = TURN / plant.coulomb_s_m
+    return abs(y[V_R] - y[V_B]) < near + change and change > 0.25 / plant.coulomb_s_m
+
+
+@kernel
 def advance(plant, y, u, work, duration_s, substeps):
-    """Carry the state `y` over `duration_s` in `substeps` of the classical fourth-order Runge-Kutta method."""
+    """Carry the state `y` over `duration_s`, in at least `substeps` steps."""
     k1, k2, k3, k4, z, q = work.k1, work.k2, work.k3, work.k4, work.z, work.q
+    if piston_turns(plant, y, k4, duration_s):
+        substeps *= FINER_AT_TURN
     h = duration_s / substeps
     for _ in range(substeps):
-        derivatives(plant, y, u, q, k1)
-        for i in range(STATES):
+        steps = 1 if abs(y[X_F]) < NEAR_STOP else FINER_AT_STOP
+        fine = 0.5 * h / steps
+        x_f, v_f, x_half = move_valve(plant, y[X_F], y[V_F], y[X_S], u[U_VALVE], fine, steps)
+        x_f, v_f, x_end = move_valve(plant, x_f, v_f, x_half, u[U_VALVE], fine, steps)
+
+        rig_derivatives(plant, y, y[X_S], u, q, k1)
+        for i in range(REST, STATES):
             z[i] = y[i] + 0.5 * h * k1[i]
-        derivatives(plant, z, u, q, k2)
-        for i in range(STATES):
+        rig_derivatives(plant, z, x_half, u, q, k2)
+        for i in range(REST, STATES):
             z[i] = y[i] + 0.5 * h * k2[i]
-        derivatives(plant, z, u, q, k3)
-        for i in range(STATES):
+        rig_derivatives(plant, z, x_half, u, q, k3)
+        for i in range(REST, STATES):
             z[i] = y[i] + h * k3[i]
-        derivatives(plant, z, u, q, k4)
-        for i in range(STATES):
+        rig_derivatives(plant, z, x_end, u, q, k4)
+        for i in range(REST, STATES):
             y[i] += h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
+        y[X_F], y[V_F], y[X_S] = x_f, v_f, x_end
     settle_gas(plant, y)

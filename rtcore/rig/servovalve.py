@@ -2,12 +2,13 @@
 
 import math
 
-from rtcore.compiled import kernel
+from rtcore.compiled import inlined
+from rtcore.rig.restriction import flows4
 
 CURRENT_LIMIT = 1.5  # of the torque motor, as a share of the flapper's travel
 
 
-@kernel
+@inlined
 def flapper_stop(plant, x_f, v_f):
     """Acceleration (1/s²) by which a stop at ±1 pushes the flapper back; it never pulls."""
     depth = abs(x_f) - 1.0
@@ -20,7 +21,7 @@ def flapper_stop(plant, x_f, v_f):
     return side * max(0.0, spring + damper)
 
 
-@kernel
+@inlined
 def spool_motion(plant, x_f, v_f, x_s, command):
     """(flapper acceleration, spool velocity) for a valve command of -1…+1."""
     wf = plant.omega_f_rad_s
@@ -31,14 +32,32 @@ def spool_motion(plant, x_f, v_f, x_s, command):
     return flapper, plant.spool_rate_m_s * x_f - plant.spool_stop_k * beyond
 
 
-@kernel
-def land_flow(plant, opening_m, drop_pa):
-    """Flow (m³/s) through one land: an orifice of width w, radial clearance c_r and Reynolds-dependent C_d.
+@inlined
+def land_restriction(plant, opening_m):
+    """(h², r h²) of a land: an orifice of width w and height h = √(y² + c_r²), with Reynolds-dependent C_d.
 
-    The closed-form root of Δp = R Q + k Q|Q| with k = ρ0/(2 (C_d w h)²), multiplied by h² = y² + c_r²,
-    which saves the root and the division of each.
+    r = k Re_tr ν w/2 + 12 ρ0 ν max(-y, 0)/(w c_r³) with k = ρ0/(2 (C_d w h)²): the laminar part of the
+    discharge law C_d √(Re/(Re + Re_tr)), and of the gap where the land overlaps.
     """
     uncovered = max(opening_m, 0.0)
     h2 = uncovered * uncovered + plant.clearance_m * plant.clearance_m
-    r = plant.land_k * plant.land_laminar_m2 + plant.land_overlap * max(-opening_m, 0.0) * h2
-    return 2.0 * drop_pa * h2 / (r + math.sqrt(r * r + 4.0 * plant.land_k * h2 * abs(drop_pa)))
+    return h2, plant.land_k * plant.land_laminar_m2 + plant.land_overlap * max(-opening_m, 0.0) * h2
+
+
+@inlined
+def land_flows(plant, x_s, p_s, p_1, p_2, p_t):
+    """Flows (m³/s) P→A, A→T, P→B, B→T at a spool position (m) and four pressures (Pa).
+
+    Root and drop are multiplied by h², which saves dividing by it: (r h²)² + 4 (k h²) h² |Δp|/h² and so on.
+    """
+    x = x_s + plant.null_m
+    h_pa, r_pa = land_restriction(plant, x + plant.underlap_pa_m)
+    h_at, r_at = land_restriction(plant, -x + plant.underlap_at_m)
+    h_pb, r_pb = land_restriction(plant, -x + plant.underlap_pb_m)
+    h_bt, r_bt = land_restriction(plant, x + plant.underlap_bt_m)
+    k = plant.land_k
+    return flows4(
+        h_pa * (p_s - p_1), h_at * (p_1 - p_t), h_pb * (p_s - p_2), h_bt * (p_2 - p_t),
+        r_pa, r_at, r_pb, r_bt,
+        k, k, k, k,
+    )  # fmt: skip
