@@ -25,7 +25,9 @@ CHANNELS = (
     Channel("force_command_n", "N", "f4", "Setpoint of the force loop"),
     Channel("force_n", "N", "f4", "Load cell, compression positive"),
     Channel("force_error_n", "N", "f4", "Setpoint minus load cell"),
-    Channel("displacement_m", "m", "f4", "LVDT of the unit under test, away from the actuator positive"),
+    Channel(
+        "displacement_m", "m", "f4", "LVDT of the unit under test, away from the actuator positive"
+    ),
     Channel("displacement_command_m", "m", "f4", "Position commanded to the unit under test"),
     Channel("velocity_m_s", "m/s", "f4", "LVT: rod relative to the body of the load actuator"),
     Channel("valve_command", "-", "f4", "Servovalve command, -1 to +1, positive raises the force"),
@@ -33,8 +35,15 @@ CHANNELS = (
     Channel("pressure_1_pa", "Pa", "f4", "Chamber 1, absolute"),
     Channel("pressure_2_pa", "Pa", "f4", "Chamber 2, absolute"),
     Channel("supply_pressure_pa", "Pa", "f4", "Supply at the manifold, absolute"),
-    Channel("compensation_velocity", "-", "f4", "Velocity term of the compensation, in valve command"),
-    Channel("compensation_acceleration", "-", "f4", "Acceleration term of the compensation, in valve command"),
+    Channel(
+        "compensation_velocity", "-", "f4", "Velocity term of the compensation, in valve command"
+    ),
+    Channel(
+        "compensation_acceleration",
+        "-",
+        "f4",
+        "Acceleration term of the compensation, in valve command",
+    ),
     Channel("wakeup_latency_s", "s", "f4", "How long after its deadline this tick began"),
     Channel("tick_time_s", "s", "f4", "How long the tick before this one took"),
     Channel("cycle", "-", "i4", "Cycles completed in this block"),

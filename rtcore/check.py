@@ -3,7 +3,7 @@
 import numpy as np
 
 from rtcore.codes import EventKind
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 from rtcore.interlocks import NO_ACTION, Quantity, check_detector
 from rtcore.memory.rings import publish_event
 
@@ -16,7 +16,7 @@ _ONE = np.uint64(1)
 
 
 @kernel
-def collect_quantities(core, silence_s, missed):
+def collect_quantities(core: Record, silence_s: float, missed: int) -> None:
     """Gather what the detectors watch."""
     q = core.quantities
     q[_FORCE] = core.sample.force_n
@@ -30,7 +30,7 @@ def collect_quantities(core, silence_s, missed):
 
 
 @kernel
-def check_detectors(table, core, block, block_address):
+def check_detectors(table: Record, core: Record, block: Record, block_address: int) -> int:
     """Evaluate the table; returns the strongest action of those that trip in this tick, or `NO_ACTION`."""
     strongest = NO_ACTION
     core.violated = np.uint64(0)

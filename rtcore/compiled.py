@@ -6,7 +6,7 @@ reference counts (docs/decisions/0002).
 """
 
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -16,7 +16,15 @@ from numba.extending import intrinsic
 
 F = TypeVar("F", bound=Callable[..., Any])
 
+# What kernels are handed, as far as a type checker can see.
+Record: TypeAlias = Any  # one record of a structured dtype, which the argument's name tells
+Array: TypeAlias = npt.NDArray[np.float64]
+Four: TypeAlias = tuple[float, float, float, float]
+
 __all__ = [
+    "Array",
+    "Four",
+    "Record",
     "address_of",
     "carray",
     "entry",
@@ -40,7 +48,9 @@ def kernel(function: F) -> F:
 
 def inlined(function: F) -> F:
     """Compile a small kernel into its callers: in the plant's equations calls would cost as much as the work."""
-    compiled: F = njit(cache=True, error_model="numpy", forceinline=True, fastmath={"contract"})(function)
+    compiled: F = njit(cache=True, error_model="numpy", forceinline=True, fastmath={"contract"})(
+        function
+    )
     return compiled
 
 

@@ -24,7 +24,10 @@ SETTINGS = np.dtype(
         ("displacement_range_m", "f8"),
         ("force_limit_n", "f8"),  # of a program
         ("displacement_limit_m", "f8"),
-        ("frozen_ticks", "i8"),  # a noisy sensor that repeats itself this long is frozen, 0: not looked at
+        (
+            "frozen_ticks",
+            "i8",
+        ),  # a noisy sensor that repeats itself this long is frozen, 0: not looked at
         ("tare_share", "f8"),  # of a new reading in the tare's running mean
     ],
     align=True,
@@ -80,7 +83,10 @@ def make_core(period_s: float, settings: dict[str, float]) -> npt.NDArray[Any]:
     """(1,) CORE as a loop begins: tripped, nothing loaded. `settings` overrides the defaults below."""
     cores = np.zeros(1, CORE)
     core = cores[0]
-    ticks = lambda seconds: max(1, round(seconds / period_s))  # noqa: E731
+
+    def ticks(seconds: float) -> int:
+        return max(1, round(seconds / period_s))
+
     defaults = {
         "period_s": period_s,
         "ready_pa": 19.0e6,

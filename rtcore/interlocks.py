@@ -1,12 +1,11 @@
 """The table of detectors, evaluated every tick; the first to trip is kept."""
 
-from enum import IntEnum
-
 import math
+from enum import IntEnum
 
 import numpy as np
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 from rtcore.modes import Mode
 
 MAX_DETECTORS = 32
@@ -69,7 +68,7 @@ NO_ACTION = -1
 
 
 @kernel
-def is_violated(detector, value):
+def is_violated(detector: Record, value: float) -> bool:
     """Written so that a NaN, on either side, is a violation."""
     if detector.comparison == _ABOVE:
         return not (value <= detector.threshold)
@@ -79,7 +78,7 @@ def is_violated(detector, value):
 
 
 @kernel
-def check_detector(detector, value, mode, violated_ticks):
+def check_detector(detector: Record, value: float, mode: int, violated_ticks: int) -> int:
     """Ticks for which a detector has been violated, this one included; 0 where it is content or not armed."""
     armed = detector.enabled != 0 and (detector.armed_modes >> mode) & 1 == 1
     if armed and is_violated(detector, value):
@@ -88,7 +87,7 @@ def check_detector(detector, value, mode, violated_ticks):
 
 
 @kernel
-def interlocks_are_valid(table):
+def interlocks_are_valid(table: Record) -> bool:
     """Whether the loop may adopt a table: within the bank, every detector meaningful."""
     if table.count < 1 or table.count > MAX_DETECTORS:
         return False

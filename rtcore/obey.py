@@ -1,7 +1,9 @@
 """Obey: take one command a tick, and answer it. A command is refused, never queued for a better moment."""
 
+import numpy as np
+
 from rtcore.codes import EventKind, Opcode, Reply
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 from rtcore.control.law import adopt_gains, gains_are_valid
 from rtcore.interlocks import interlocks_are_valid
 from rtcore.io import SUPPLY_OFF
@@ -27,7 +29,18 @@ _ADOPT_GAINS, _ADOPT_INTERLOCKS, _ADOPT_PROGRAM = (
     int(Opcode.ADOPT_INTERLOCKS),
     int(Opcode.ADOPT_PROGRAM),
 )
-_ACCEPTED, _WRONG_MODE, _STALE, _EXPIRED, _REPLAYED, _UNKNOWN, _CAUSE, _INVALID, _NO_PROGRAM, _BUSY = (
+(
+    _ACCEPTED,
+    _WRONG_MODE,
+    _STALE,
+    _EXPIRED,
+    _REPLAYED,
+    _UNKNOWN,
+    _CAUSE,
+    _INVALID,
+    _NO_PROGRAM,
+    _BUSY,
+) = (
     int(Reply.ACCEPTED),
     int(Reply.WRONG_MODE),
     int(Reply.STALE_LEASE),
@@ -39,24 +52,30 @@ _ACCEPTED, _WRONG_MODE, _STALE, _EXPIRED, _REPLAYED, _UNKNOWN, _CAUSE, _INVALID,
     int(Reply.NO_PROGRAM),
     int(Reply.BUSY),
 )
-_EVENT_RESET, _EVENT_PRESSURISE, _EVENT_DEPRESSURISE = (
-    int(Event.RESET),
-    int(Event.PRESSURISE),
-    int(Event.DEPRESSURISE),
-)
-_EVENT_START, _EVENT_HOLD, _EVENT_RESUME = int(Event.START), int(Event.HOLD), int(Event.RESUME)
-_EVENT_STOP, _EVENT_TRIP = int(Event.STOP), int(Event.TRIP)
+_EVENT_RESET = int(Event.RESET)
+# The event of the mode that a command is, by opcode; -1 for those that are none.
+_EVENT_OF = np.full(len(Opcode) + 1, -1)
+for _opcode, _event in (
+    (Opcode.PRESSURISE, Event.PRESSURISE),
+    (Opcode.DEPRESSURISE, Event.DEPRESSURISE),
+    (Opcode.START, Event.START),
+    (Opcode.HOLD, Event.HOLD),
+    (Opcode.RESUME, Event.RESUME),
+    (Opcode.STOP, Event.STOP),
+    (Opcode.SHUTDOWN, Event.TRIP),
+):
+    _EVENT_OF[_opcode] = _event
 _MODE_TRIPPED, _MODE_OFF = int(Mode.TRIPPED), int(Mode.OFF)
 SEGMENTS_A_TICK = 32
 
 
 @kernel
-def _done(happened):
+def _done(happened: bool) -> int:
     return _ACCEPTED if happened else _WRONG_MODE
 
 
 @kernel
-def _reset(core, block, block_address):
+def _reset(core: Record, block: Record, block_address: int) -> int:
     """Clear what is latched, where its cause is gone. Starts nothing."""
     if core.violated != 0:
         return _CAUSE
@@ -67,7 +86,7 @@ def _reset(core, block, block_address):
 
 
 @kernel
-def _tare(core):
+def _tare(core: Record) -> int:
     """Make the mean of the unloaded load cell the new zero."""
     if core.mode != _MODE_OFF or core.outputs.supply != SUPPLY_OFF:
         return _WRONG_MODE
@@ -76,7 +95,7 @@ def _tare(core):
 
 
 @kernel
-def _adopt_small(core, block, opcode, bank):
+def _adopt_small(core: Record, block: Record, opcode: int, bank: int) -> int:
     """Gains and interlocks: checked and adopted within this tick, whole or not at all."""
     if not 0 <= bank <= 1:
         return _INVALID
@@ -96,7 +115,7 @@ def _adopt_small(core, block, opcode, bank):
 
 
 @kernel
-def _check_next_segments(core, table, first, limit):
+def _check_next_segments(core: Record, table: Record, first: int, limit: float) -> int:
     """Check a share of a table; -1 invalid, else how many segments of it are checked."""
     last = min(table.count, first + SEGMENTS_A_TICK)
     for i in range(first, last):
@@ -106,7 +125,7 @@ def _check_next_segments(core, table, first, limit):
 
 
 @kernel
-def _adopt_program(core, block, bank):
+def _adopt_program(core: Record, block: Record, bank: int) -> int:
     """Check a few segments each tick, adopt when all are good. BUSY meanwhile."""
     if not 0 <= bank <= 1 or (bank == block.active_program and core.has_program != 0):
         return _INVALID
@@ -137,43 +156,29 @@ def _adopt_program(core, block, bank):
 
 
 @kernel
-def _carry_out(core, block, block_address, opcode, argument):
-    if opcode == _RESET:
-        return _reset(core, block, block_address)
-    if opcode == _PRESSURISE:
-        if core.trips != 0:
-            return _CAUSE
-        return _done(apply_event(core, block_address, _EVENT_PRESSURISE))
-    if opcode == _DEPRESSURISE:
-        return _done(apply_event(core, block_address, _EVENT_DEPRESSURISE))
-    if opcode == _TARE:
-        return _tare(core)
-    if opcode == _START:
-        if core.has_program == 0:
-            return _NO_PROGRAM
-        if core.trips != 0:
-            return _CAUSE
-        program = block.programs[block.active_program]
-        return _done(start_run(core, program, block_address, _EVENT_START, argument))
-    if opcode == _HOLD:
-        return _done(apply_event(core, block_address, _EVENT_HOLD))
-    if opcode == _RESUME:
-        if core.trips != 0:
-            return _CAUSE
-        return _done(apply_event(core, block_address, _EVENT_RESUME))
-    if opcode == _STOP:
-        return _done(apply_event(core, block_address, _EVENT_STOP))
-    if opcode == _SHUTDOWN:
-        return _done(apply_event(core, block_address, _EVENT_TRIP))
-    if opcode == _ADOPT_GAINS or opcode == _ADOPT_INTERLOCKS:
+def _carry_out(core: Record, block: Record, block_address: int, opcode: int, argument: int) -> int:
+    if opcode in (_ADOPT_GAINS, _ADOPT_INTERLOCKS):
         return _adopt_small(core, block, opcode, argument)
     if opcode == _ADOPT_PROGRAM:
         return _adopt_program(core, block, argument)
-    return _UNKNOWN
+    if opcode == _RESET:
+        return _reset(core, block, block_address)
+    if opcode == _TARE:
+        return _tare(core)
+    if not 0 <= opcode < len(_EVENT_OF) or _EVENT_OF[opcode] < 0:
+        return _UNKNOWN
+    if core.trips != 0 and opcode in (_PRESSURISE, _START, _RESUME):
+        return _CAUSE
+    if opcode == _START:
+        if core.has_program == 0:
+            return _NO_PROGRAM
+        program = block.programs[block.active_program]
+        return _done(start_run(core, program, block_address, _EVENT_OF[opcode], argument))
+    return _done(apply_event(core, block_address, _EVENT_OF[opcode]))
 
 
 @kernel
-def take_command(core, block, block_address, now_ns):
+def take_command(core: Record, block: Record, block_address: int, now_ns: int) -> None:
     """Take the next command, if there is one. Stopping needs neither lease nor haste."""
     if not pending(block_address):
         return
@@ -190,5 +195,12 @@ def take_command(core, block, block_address, now_ns):
         reply = _carry_out(core, block, block_address, command.opcode, command.argument)
     if reply != _BUSY:
         core.commands_seen += 1
-        publish_event(block_address, core.tick, _COMMAND, command.opcode, float(reply), float(command.argument))
+        publish_event(
+            block_address,
+            core.tick,
+            _COMMAND,
+            command.opcode,
+            float(reply),
+            float(command.argument),
+        )
         acknowledge(block_address, reply, core.tick)

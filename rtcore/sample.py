@@ -2,13 +2,13 @@
 
 import math
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 
 FULL_SCALE = 0.9999  # of a converter's range: at its end a reading is saturated
 
 
 @kernel
-def sensor_is_faulty(sensor, value, full_scale, frozen_ticks):
+def sensor_is_faulty(sensor: Record, value: float, full_scale: float, frozen_ticks: int) -> bool:
     """Whether a noisy sensor is not finite, at the end of its range, or repeats itself to the last bit."""
     sensor.repeats = sensor.repeats + 1 if value == sensor.last else 0
     sensor.last = value
@@ -17,10 +17,12 @@ def sensor_is_faulty(sensor, value, full_scale, frozen_ticks):
 
 
 @kernel
-def take_sample(settings, inputs, sample):
+def take_sample(settings: Record, inputs: Record, sample: Record) -> None:
     """Fill the sample of this tick, its count of faulty sensors included."""
     faults = 0
-    if sensor_is_faulty(sample.force, inputs.force_n, settings.force_range_n, settings.frozen_ticks):
+    if sensor_is_faulty(
+        sample.force, inputs.force_n, settings.force_range_n, settings.frozen_ticks
+    ):
         faults += 1
     if sensor_is_faulty(
         sample.velocity, inputs.velocity_m_s, settings.velocity_range_m_s, settings.frozen_ticks

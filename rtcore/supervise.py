@@ -3,7 +3,7 @@
 import numpy as np
 
 from rtcore.codes import EventKind
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 from rtcore.interlocks import Action
 from rtcore.io import SUPPLY_HIGH, SUPPLY_LOW, SUPPLY_OFF
 from rtcore.memory.rings import publish_event
@@ -11,7 +11,11 @@ from rtcore.modes import NO_TRANSITION, Event, Mode, is_pressurised, is_run, nex
 from rtcore.program.generator import rest, start
 
 _MODE, _ENDED = int(EventKind.MODE), int(EventKind.PROGRAM_ENDED)
-_STOP_ACTION, _SHUTDOWN_ACTION, _HOLD_ACTION = int(Action.STOP), int(Action.SHUTDOWN), int(Action.HOLD)
+_STOP_ACTION, _SHUTDOWN_ACTION, _HOLD_ACTION = (
+    int(Action.STOP),
+    int(Action.SHUTDOWN),
+    int(Action.HOLD),
+)
 _TRIPPED, _OFF, _PRESSURISING, _READY = (
     int(Mode.TRIPPED),
     int(Mode.OFF),
@@ -19,13 +23,18 @@ _TRIPPED, _OFF, _PRESSURISING, _READY = (
     int(Mode.READY),
 )
 _RUNNING, _HOLDING, _STOPPING = int(Mode.RUNNING), int(Mode.HOLDING), int(Mode.STOPPING)
-_TRIP, _STOP, _HOLD, _STOPPED = int(Event.TRIP), int(Event.STOP), int(Event.HOLD), int(Event.STOPPED)
+_TRIP, _STOP, _HOLD, _STOPPED = (
+    int(Event.TRIP),
+    int(Event.STOP),
+    int(Event.HOLD),
+    int(Event.STOPPED),
+)
 _PRESSURE_REACHED = int(Event.PRESSURE_REACHED)
 RUN_TAIL_S = 0.5  # a run that trips is recorded this much longer
 
 
 @kernel
-def apply_event(core, block_address, event):
+def apply_event(core: Record, block_address: int, event: int) -> bool:
     """Move the mode; False where the event means nothing in this one."""
     after = next_mode(core.mode, event)
     if after == NO_TRANSITION:
@@ -45,7 +54,7 @@ def apply_event(core, block_address, event):
 
 
 @kernel
-def start_run(core, program, block_address, event, run):
+def start_run(core: Record, program: Record, block_address: int, event: int, run: int) -> bool:
     """Begin the adopted program; the setpoint starts where it is."""
     if not apply_event(core, block_address, event):
         return False
@@ -57,7 +66,7 @@ def start_run(core, program, block_address, event, run):
 
 
 @kernel
-def react(core, block_address, action):
+def react(core: Record, block_address: int, action: int) -> None:
     """What the strongest detector that tripped in this tick demands."""
     if action == _SHUTDOWN_ACTION or (action == _STOP_ACTION and not is_run(core.mode)):
         apply_event(core, block_address, _TRIP)
@@ -69,7 +78,7 @@ def react(core, block_address, action):
 
 
 @kernel
-def progress(core, block_address):
+def progress(core: Record, block_address: int) -> None:
     """What follows from the state of the rig itself: pressure reached, program ended, load taken off."""
     core.mode_ticks += 1
     settings = core.settings
@@ -86,19 +95,22 @@ def progress(core, block_address):
 
 
 @kernel
-def wanted_supply(core):
+def wanted_supply(core: Record) -> int:
     """Off, low or high: low first, until the hoses and chambers are filled."""
     if not is_pressurised(core.mode):
         return SUPPLY_OFF
     settings = core.settings
-    filled = core.inputs.supply_pressure_pa >= settings.low_reached_pa and core.mode_ticks >= settings.low_ticks
+    filled = (
+        core.inputs.supply_pressure_pa >= settings.low_reached_pa
+        and core.mode_ticks >= settings.low_ticks
+    )
     if core.mode == _PRESSURISING and not filled and core.outputs.supply != SUPPLY_HIGH:
         return SUPPLY_LOW
     return SUPPLY_HIGH
 
 
 @kernel
-def clear_trips(core, block):
+def clear_trips(core: Record, block: Record) -> None:
     """Forget what is latched; the caller has made sure that no cause is present."""
     core.trips = np.uint64(0)
     block.first_out = -1

@@ -3,10 +3,10 @@
 sample → check → mode → setpoint → law → limit → actuate → publish
 """
 
-from rtcore.check import check_detectors, collect_quantities
 from rtcore.channels import TELEMETRY
+from rtcore.check import check_detectors, collect_quantities
 from rtcore.codes import EventKind
-from rtcore.compiled import carray, kernel, pointer
+from rtcore.compiled import Record, carray, kernel, pointer
 from rtcore.control.law import closed_loop, open_loop
 from rtcore.memory.rings import next_record_address, publish_event, publish_record
 from rtcore.memory.snapshot import write_snapshot
@@ -22,7 +22,15 @@ RETURN_M_S = 0.01  # at which the unit under test goes back to its middle when t
 
 
 @kernel
-def tick(core, block, block_address, now_ns, wakeup_latency_ns, tick_time_ns, missed):
+def tick(
+    core: Record,
+    block: Record,
+    block_address: int,
+    now_ns: int,
+    wakeup_latency_ns: int,
+    tick_time_ns: int,
+    missed: int,
+) -> None:
     """From the inputs in `core.inputs` to the outputs in `core.outputs`, and a record of both.
 
     Times in ns; `missed` deadlines were skipped just before this tick. Allocates nothing and waits for nobody.
@@ -77,7 +85,7 @@ def tick(core, block, block_address, now_ns, wakeup_latency_ns, tick_time_ns, mi
 
 
 @kernel
-def set_points(core, program, block_address):
+def set_points(core: Record, program: Record, block_address: int) -> None:
     """Force and motion commanded in this tick."""
     settings = core.settings
     if not is_run(core.mode):
@@ -95,7 +103,7 @@ def set_points(core, program, block_address):
 
 
 @kernel
-def fill_record(record, core, wakeup_latency_ns, tick_time_ns):
+def fill_record(record: Record, core: Record, wakeup_latency_ns: int, tick_time_ns: int) -> None:
     """Everything that is known of this tick."""
     record.tick = core.tick
     record.time_s = core.tick * core.settings.period_s

@@ -26,7 +26,15 @@ PERIOD_S = 250e-6
 
 
 @entry
-def run_ticks(block_address, core_address, world_address, first_tick, ticks, app_beats, states_address):
+def run_ticks(
+    block_address: int,
+    core_address: int,
+    world_address: int,
+    first_tick: int,
+    ticks: int,
+    app_beats: bool,
+    states_address: int,
+) -> None:
     """Run so many ticks on end; where `states_address` is not 0, the plant's state at each goes there."""
     block = carray(pointer(block_address), 1, BLOCK)[0]
     world = carray(pointer(world_address), 1, WORLD)[0]
@@ -133,7 +141,7 @@ class Virtual:
         step = round(0.5 / self.period_s)
         while parts[-1][-1]["run"] == argument and len(parts) * 0.5 < at_most_s:
             parts.append(self.advance(step))
-        records = np.concatenate(parts)
+        records: npt.NDArray[Any] = np.concatenate(parts)
         return records[records["run"] == argument]
 
     def events(self) -> npt.NDArray[Any]:

@@ -9,8 +9,15 @@ import math
 
 import numpy as np
 
-from rtcore.compiled import kernel
-from rtcore.control.filters import FILTER, clear_filter, design_lead, design_low_pass, design_notch, filter_step
+from rtcore.compiled import Record, kernel
+from rtcore.control.filters import (
+    FILTER,
+    clear_filter,
+    design_lead,
+    design_low_pass,
+    design_notch,
+    filter_step,
+)
 from rtcore.program.segments import Branch
 
 COMPENSATION = np.dtype(
@@ -33,7 +40,7 @@ LOWEST_NOTCH_HZ = 0.1
 
 
 @kernel
-def design_compensation(gains, comp, period_s):
+def design_compensation(gains: Record, comp: Record, period_s: float) -> None:
     """Adopt new gains; the filters keep their memory."""
     design_lead(comp.lead, gains.lead_zero_rad_s, gains.lead_pole_rad_s, period_s)
     design_low_pass(
@@ -43,7 +50,7 @@ def design_compensation(gains, comp, period_s):
 
 
 @kernel
-def reset_compensation(comp):
+def reset_compensation(comp: Record) -> None:
     """Forget the past and stand excluded."""
     clear_filter(comp.lead)
     clear_filter(comp.low_pass)
@@ -56,24 +63,30 @@ def reset_compensation(comp):
 
 
 @kernel
-def _faded(share, wanted, step):
+def _faded(share: float, wanted: bool, step: float) -> float:
     return min(share + step, 1.0) if wanted else max(share - step, 0.0)
 
 
 @kernel
-def compensation_step(gains, comp, velocity_m_s, load_hz, branch, period_s):
+def compensation_step(
+    gains: Record, comp: Record, velocity_m_s: float, load_hz: float, branch: int, period_s: float
+) -> float:
     """The compensation in valve command, dimensionless: FF_V v_f + FF_A Δv_f/T."""
     if load_hz != comp.notch_hz and load_hz >= LOWEST_NOTCH_HZ:
         design_notch(comp.notch, 2.0 * math.pi * load_hz, gains.notch_damping, period_s)
         comp.notch_hz = load_hz
     step = period_s / gains.fade_s
-    comp.branch_share = _faded(comp.branch_share, gains.compensate != 0 and branch != _EXCLUDED, step)
+    comp.branch_share = _faded(
+        comp.branch_share, gains.compensate != 0 and branch != _EXCLUDED, step
+    )
     comp.notch_share = _faded(comp.notch_share, branch == _WITH_NOTCH, step)
 
     smooth = filter_step(comp.low_pass, filter_step(comp.lead, velocity_m_s))
     notched = filter_step(comp.notch, smooth)
     filtered = smooth + comp.notch_share * (notched - smooth)
     comp.velocity_term = comp.branch_share * gains.ff_v * filtered
-    comp.acceleration_term = comp.branch_share * gains.ff_a * (filtered - comp.filtered_m_s) / period_s
+    comp.acceleration_term = (
+        comp.branch_share * gains.ff_a * (filtered - comp.filtered_m_s) / period_s
+    )
     comp.filtered_m_s = filtered
     return comp.velocity_term + comp.acceleration_term

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 from rtcore.control.compensation import (
     COMPENSATION,
     compensation_step,
@@ -15,13 +15,13 @@ LAW = np.dtype([("pid", PID), ("compensation", COMPENSATION), ("valve", "f8")], 
 
 
 @kernel
-def adopt_gains(gains, law, period_s):
+def adopt_gains(gains: Record, law: Record, period_s: float) -> None:
     """Make new gains effective."""
     design_compensation(gains, law.compensation, period_s)
 
 
 @kernel
-def open_loop(law, setpoint_n, force_n):
+def open_loop(law: Record, setpoint_n: float, force_n: float) -> None:
     """The valve at null, and nothing remembered that could bump when the loop closes."""
     reset_pid(law.pid, setpoint_n, force_n)
     reset_compensation(law.compensation)
@@ -29,9 +29,20 @@ def open_loop(law, setpoint_n, force_n):
 
 
 @kernel
-def closed_loop(gains, law, setpoint_n, force_n, velocity_m_s, load_hz, branch, period_s):
+def closed_loop(
+    gains: Record,
+    law: Record,
+    setpoint_n: float,
+    force_n: float,
+    velocity_m_s: float,
+    load_hz: float,
+    branch: int,
+    period_s: float,
+) -> float:
     """The valve command of this tick, -1…+1."""
-    fed_forward = compensation_step(gains, law.compensation, velocity_m_s, load_hz, branch, period_s)
+    fed_forward = compensation_step(
+        gains, law.compensation, velocity_m_s, load_hz, branch, period_s
+    )
     wanted = pid_step(gains, law.pid, setpoint_n, force_n, fed_forward, period_s)
     step = gains.valve_slew_per_s * period_s
     law.valve = min(max(wanted, law.valve - step), law.valve + step)
@@ -39,12 +50,17 @@ def closed_loop(gains, law, setpoint_n, force_n, velocity_m_s, load_hz, branch, 
 
 
 @kernel
-def gains_are_valid(gains):
+def gains_are_valid(gains: Record) -> bool:
     """Whether the loop may run with these gains: finite, and each within what it can mean."""
     for value in (gains.k_p, gains.k_i, gains.k_d, gains.k_ff, gains.ff_v, gains.ff_a):
         if not abs(value) < 1e6:
             return False
-    for value in (gains.omega_d_rad_s, gains.lead_zero_rad_s, gains.lead_pole_rad_s, gains.low_pass_rad_s):
+    for value in (
+        gains.omega_d_rad_s,
+        gains.lead_zero_rad_s,
+        gains.lead_pole_rad_s,
+        gains.low_pass_rad_s,
+    ):
         if not 0.0 < value < 1e6:
             return False
     damped = 0.0 < gains.low_pass_damping < 10.0 and 0.0 < gains.notch_damping < 10.0

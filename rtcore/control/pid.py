@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 
 PID = np.dtype(
     [("integral", "f8"), ("derivative", "f8"), ("error_n", "f8"), ("setpoint_n", "f8")], align=True
@@ -12,7 +12,7 @@ PID = np.dtype(
 
 
 @kernel
-def reset_pid(pid, setpoint_n, force_n):
+def reset_pid(pid: Record, setpoint_n: float, force_n: float) -> None:
     """Start without a bump: no integral, no derivative of a jump that never was."""
     pid.integral = 0.0
     pid.derivative = 0.0
@@ -21,7 +21,14 @@ def reset_pid(pid, setpoint_n, force_n):
 
 
 @kernel
-def pid_step(gains, pid, setpoint_n, force_n, compensation, period_s):
+def pid_step(
+    gains: Record,
+    pid: Record,
+    setpoint_n: float,
+    force_n: float,
+    compensation: float,
+    period_s: float,
+) -> float:
     """The saturated valve command, -valve_limit…+valve_limit.
 
     V = K_P e + I + K_D d + K_FF ΔF_set/T + compensation; the integrator takes its new value only where V
@@ -33,7 +40,11 @@ def pid_step(gains, pid, setpoint_n, force_n, compensation, period_s):
     integral = pid.integral + gains.k_i * error_n * period_s
     rate_n_s = (setpoint_n - pid.setpoint_n) / period_s
     wanted = (
-        gains.k_p * error_n + integral + gains.k_d * pid.derivative + gains.k_ff * rate_n_s + compensation
+        gains.k_p * error_n
+        + integral
+        + gains.k_d * pid.derivative
+        + gains.k_ff * rate_n_s
+        + compensation
     )
     valve = min(max(wanted, -gains.valve_limit), gains.valve_limit)
     if wanted == valve or (wanted - valve) * error_n < 0.0:

@@ -36,7 +36,9 @@ def cycle(
 class SimulatedIo:
     """Loop and simulated rig, bound to one block. `core` and `world` are theirs alone."""
 
-    def __init__(self, rig: RigParameters, seed: int, block: Block, settings: dict[str, float] | None = None) -> None:
+    def __init__(
+        self, rig: RigParameters, seed: int, block: Block, settings: dict[str, float] | None = None
+    ) -> None:
         ranges = {
             "force_range_n": rig.sensors.force_range_n,
             "velocity_range_m_s": rig.sensors.velocity_range_m_s,

@@ -24,7 +24,9 @@ class CommandsFull(Exception):
     """The loop has not taken the last commands: it is stopped or gone."""
 
 
-def post(block: Block, opcode: Opcode, argument: int = 0, *, lease: int = 0, time_to_live_s: float = 0.5) -> int:
+def post(
+    block: Block, opcode: Opcode, argument: int = 0, *, lease: int = 0, time_to_live_s: float = 0.5
+) -> int:
     """Post a command and return its sequence number. One thread of one process may post.
 
     Raises `CommandsFull` where the ring is full.

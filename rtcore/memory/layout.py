@@ -84,7 +84,11 @@ BLOCK = np.dtype(
 
 def _layout_hash() -> int:
     described = repr(
-        (BLOCK.descr, TELEMETRY.descr, [[(m.name, m.value) for m in e] for e in (Opcode, Reply, EventKind, Mode)])
+        (
+            BLOCK.descr,
+            TELEMETRY.descr,
+            [[(m.name, m.value) for m in e] for e in (Opcode, Reply, EventKind, Mode)],
+        )
     )
     return int.from_bytes(hashlib.sha256(described.encode()).digest()[:7], "little")
 

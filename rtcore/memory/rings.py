@@ -7,7 +7,15 @@ import numpy as np
 import numpy.typing as npt
 
 from rtcore.channels import TELEMETRY
-from rtcore.compiled import carray, kernel, load_acquire, offset_of, pointer, read_index, store_release
+from rtcore.compiled import (
+    carray,
+    kernel,
+    load_acquire,
+    offset_of,
+    pointer,
+    read_index,
+    store_release,
+)
 from rtcore.memory.layout import BLOCK, EVENT_SLOTS, RING_OFFSET
 from rtcore.memory.segment import Block
 
@@ -31,7 +39,9 @@ def publish_record(block_address: int) -> None:
 
 
 @kernel
-def publish_event(block_address: int, tick: int, kind: int, code: int, value: float, limit: float) -> None:
+def publish_event(
+    block_address: int, tick: int, kind: int, code: int, value: float, limit: float
+) -> None:
     """Append an event and make it visible."""
     block = carray(pointer(block_address), 1, BLOCK)[0]
     sequence = load_acquire(block_address + _EVENTS)

@@ -73,7 +73,7 @@ def create_block(path: Path, period_ns: int, seconds: float = RING_SECONDS) -> B
         os.posix_fallocate(handle, 0, block_bytes(slots))
         block = Block(mmap.mmap(handle, block_bytes(slots)), slots)
         _initialise(block, period_ns)
-        os.replace(name, path)
+        Path(name).replace(path)
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
@@ -88,10 +88,14 @@ def attach_block(path: Path) -> Block:
         with path.open("r+b") as file:
             size = os.fstat(file.fileno()).st_size
             if size < BLOCK.itemsize:
-                raise BlockError(f"{path.name} has {size} bytes, {BLOCK.itemsize} needed: not a block of forcerig")
+                raise BlockError(
+                    f"{path.name} has {size} bytes, {BLOCK.itemsize} needed: not a block of forcerig"
+                )
             buffer = mmap.mmap(file.fileno(), size)
     except FileNotFoundError:
-        raise BlockError(f"no shared block at {path.name}: the loop process is not running") from None
+        raise BlockError(
+            f"no shared block at {path.name}: the loop process is not running"
+        ) from None
     header = np.frombuffer(buffer, dtype=BLOCK, count=1)[0]
     if header["magic"] != MAGIC:
         raise BlockError(f"{path.name} does not begin as a block of forcerig")

@@ -5,7 +5,16 @@ from typing import Any
 import numpy as np
 
 from rtcore.channels import TELEMETRY
-from rtcore.compiled import address_of, carray, fence, kernel, load_acquire, offset_of, pointer, store_release
+from rtcore.compiled import (
+    address_of,
+    carray,
+    fence,
+    kernel,
+    load_acquire,
+    offset_of,
+    pointer,
+    store_release,
+)
 from rtcore.memory.layout import BLOCK
 from rtcore.memory.segment import Block
 

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 from rtcore.program.segments import MAX_DEPTH, Branch, Segment
 
 GENERATOR = np.dtype(
@@ -51,13 +51,13 @@ _EXCLUDED = int(Branch.EXCLUDED)
 
 
 @kernel
-def fade(ticks, of_ticks):
+def fade(ticks: int, of_ticks: int) -> float:
     """Half a cosine from 1 at 0 to 0 at `of_ticks`."""
     return 0.5 + 0.5 * math.cos(math.pi * ticks / of_ticks)
 
 
 @kernel
-def start(g, table, value, period_s):
+def start(g: Record, table: Record, value: float, period_s: float) -> None:
     """Begin a table at a setpoint of `value`."""
     g.segment = 0
     g.depth = 0
@@ -71,7 +71,7 @@ def start(g, table, value, period_s):
 
 
 @kernel
-def rest(g, value):
+def rest(g: Record, value: float) -> None:
     """No harmonic, setpoint at `value`."""
     g.value = value
     g.mean = value
@@ -82,7 +82,7 @@ def rest(g, value):
 
 
 @kernel
-def _phase(g, s, tick, period_s):
+def _phase(g: Record, s: Record, tick: int, period_s: float) -> float:
     """Phase (cycles) after so many ticks of a harmonic whose frequency moves linearly."""
     t = tick * period_s
     phase = g.from_phase + g.from_frequency_hz * t
@@ -92,7 +92,7 @@ def _phase(g, s, tick, period_s):
 
 
 @kernel
-def _enter(g, s, period_s):
+def _enter(g: Record, s: Record, period_s: float) -> None:
     """Fix how the segment begins and how long it takes."""
     g.tick = 0
     g.ticks = s.ticks
@@ -117,7 +117,7 @@ def _enter(g, s, period_s):
 
 
 @kernel
-def _evaluate(g, s, tick, period_s):
+def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
     """Set mean, amplitude, frequency and value at a tick of the segment."""
     share = tick / g.ticks if g.ticks > 0 else 1.0
     if s.kind == _HARMONIC:
@@ -140,7 +140,7 @@ def _evaluate(g, s, tick, period_s):
 
 
 @kernel
-def _leave(g, s, period_s):
+def _leave(g: Record, s: Record, period_s: float) -> None:
     """Set what the segment leaves behind: its value, phase and cycles at its last instant."""
     _evaluate(g, s, g.ticks, period_s)
     if s.kind == _HARMONIC:
@@ -151,7 +151,7 @@ def _leave(g, s, period_s):
 
 
 @kernel
-def _after_repeat(g, s):
+def _after_repeat(g: Record, s: Record) -> int:
     """The segment that follows a REPEAT: back to its body, or on."""
     top = g.depth - 1
     if top >= 0 and g.repeat_segment[top] == g.segment:
@@ -168,7 +168,7 @@ def _after_repeat(g, s):
 
 
 @kernel
-def _settle(g, table, period_s):
+def _settle(g: Record, table: Record, period_s: float) -> None:
     """Go on to the segment that this tick belongs to."""
     for _ in range(MOST_SEGMENTS_A_TICK):
         s = table.segments[g.segment]
@@ -186,7 +186,15 @@ def _settle(g, table, period_s):
 
 
 @kernel
-def generate(g, table, holding, stopping, hold_fade_ticks, stop_fade_ticks, period_s):
+def generate(
+    g: Record,
+    table: Record,
+    holding: bool,
+    stopping: bool,
+    hold_fade_ticks: int,
+    stop_fade_ticks: int,
+    period_s: float,
+) -> bool:
     """One tick of setpoint: the result is in `g.value`; True once a stop has faded to zero.
 
     `holding` and `stopping` are what the mode asks for in this tick.

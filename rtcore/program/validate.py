@@ -2,7 +2,7 @@
 
 import math
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 from rtcore.program.segments import MAX_SEGMENTS, Segment
 
 _END, _LINEAR, _HARMONIC, _REPEAT = (
@@ -14,7 +14,7 @@ _END, _LINEAR, _HARMONIC, _REPEAT = (
 
 
 @kernel
-def table_is_bounded(table):
+def table_is_bounded(table: Record) -> bool:
     """Whether a table has an END within its count, which is within the bank."""
     if table.count < 1 or table.count > MAX_SEGMENTS:
         return False
@@ -22,12 +22,12 @@ def table_is_bounded(table):
 
 
 @kernel
-def _within(value, limit):
+def _within(value: float, limit: float) -> bool:
     return abs(value) <= limit
 
 
 @kernel
-def segment_is_valid(s, index, limit, frequency_limit_hz):
+def segment_is_valid(s: Record, index: int, limit: float, frequency_limit_hz: float) -> bool:
     """Whether one segment keeps within the limits (N or m, Hz) and jumps only backwards."""
     if s.kind < _END or s.kind > _REPEAT or s.ticks < 0:
         return False

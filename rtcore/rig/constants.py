@@ -75,4 +75,10 @@ def bypass_flow_gain(rig: RigParameters) -> float:
     """K_o = C_dO (π d_O²/4) √(2/ρ0), m³/s per √Pa."""
     actuator = rig.load_actuator
     rho = fluid_at_temperature(rig.fluid)["density_kg_m3"]
-    return actuator.bypass_discharge * math.pi * actuator.bypass_diameter_m**2 / 4.0 * math.sqrt(2.0 / rho)
+    return (
+        actuator.bypass_discharge
+        * math.pi
+        * actuator.bypass_diameter_m**2
+        / 4.0
+        * math.sqrt(2.0 / rho)
+    )

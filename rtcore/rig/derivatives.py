@@ -2,22 +2,66 @@
 
 import math
 
-from rtcore.compiled import inlined
+from rtcore.compiled import Array, Record, inlined
 from rtcore.lanes import divide4
 from rtcore.rig.fluid import specific_volume
-from rtcore.rig.plant import *  # noqa: F403
+from rtcore.rig.plant import (
+    DY_F,
+    F_BODY,
+    F_CELL,
+    F_FIXTURE,
+    F_FRICTION,
+    F_HYDRAULIC,
+    F_UNIT,
+    G_S,
+    G_T,
+    P_1,
+    P_2,
+    P_S,
+    P_T,
+    Q_AT,
+    Q_BLEED,
+    Q_BT,
+    Q_BYPASS,
+    Q_DRAIN_1,
+    Q_DRAIN_2,
+    Q_PA,
+    Q_PB,
+    Q_PUMP,
+    Q_RELIEF,
+    Q_TANK,
+    U_BLEED,
+    U_PUMP,
+    U_UNIT,
+    U_VALVE,
+    V_1,
+    V_2,
+    V_B,
+    V_F,
+    V_R,
+    V_T,
+    X_1,
+    X_2,
+    X_B,
+    X_F,
+    X_R,
+    X_S,
+    X_T,
+    Y_F,
+    Y_V,
+)
 from rtcore.rig.restriction import flows4
 from rtcore.rig.servovalve import land_flows, spool_motion
 
 
 @inlined
-def smooth_sign(z):
+def smooth_sign(z: float) -> float:
     """tanh z to 1e-16, absolute, at a third of the library's price."""
     return 1.0 - 2.0 / (math.exp(2.0 * z) + 1.0)
 
 
 @inlined
-def flows(plant, y, x_s, u, q):
+def flows(plant: Record, y: Array, x_s: float, u: Array, q: Array) -> None:
     """Write the flows and forces `q` at state `y`, with the spool at `x_s` (m), under inputs `u`."""
     q[Q_PA], q[Q_AT], q[Q_PB], q[Q_BT] = land_flows(plant, x_s, y[P_S], y[P_1], y[P_2], y[P_T])
     drop = y[P_1] - y[P_2]
@@ -34,7 +78,9 @@ def flows(plant, y, x_s, u, q):
     q[Q_BLEED] = u[U_BLEED] * bled
     q[Q_TANK] = returned
     slip = y[V_R] - y[V_B]
-    q[F_FRICTION] = plant.coulomb_n * smooth_sign(slip * plant.coulomb_s_m) + plant.viscous_n_s_m * slip
+    q[F_FRICTION] = (
+        plant.coulomb_n * smooth_sign(slip * plant.coulomb_s_m) + plant.viscous_n_s_m * slip
+    )
     q[F_HYDRAULIC] = plant.area_m2 * drop - q[F_FRICTION]
     q[F_BODY] = plant.k_pl * y[X_B] + plant.c_pl * y[V_B]
     q[F_CELL] = plant.k_lc * (y[X_R] - y[X_1]) + plant.c_lc * (y[V_R] - y[V_1])
@@ -43,7 +89,7 @@ def flows(plant, y, x_s, u, q):
 
 
 @inlined
-def rig_derivatives(plant, y, x_s, u, q, dy):
+def rig_derivatives(plant: Record, y: Array, x_s: float, u: Array, q: Array, dy: Array) -> None:
     """Write dy/dt of everything behind the spool, which itself moves `x_s` and depends on none of it."""
     flows(plant, y, x_s, u, q)
     slip = y[V_R] - y[V_B]
@@ -88,7 +134,7 @@ def rig_derivatives(plant, y, x_s, u, q, dy):
 
 
 @inlined
-def derivatives(plant, y, u, q, dy):
+def derivatives(plant: Record, y: Array, u: Array, q: Array, dy: Array) -> None:
     """Write dy/dt of the whole plant."""
     dy[X_F] = y[V_F]
     dy[V_F], dy[X_S] = spool_motion(plant, y[X_F], y[V_F], y[X_S], u[U_VALVE])

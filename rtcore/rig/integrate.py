@@ -6,13 +6,28 @@ the held command. Where the piston turns round within the tick, friction asks fo
 
 import numpy as np
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Array, Record, kernel
 from rtcore.rig.derivatives import rig_derivatives
-from rtcore.rig.plant import FLOWS, G_S, G_T, P_1, P_S, P_T, STATES, U_VALVE, V_B, V_F, V_R, X_F, X_S
+from rtcore.rig.plant import (
+    FLOWS,
+    G_S,
+    G_T,
+    P_1,
+    P_S,
+    P_T,
+    STATES,
+    U_VALVE,
+    V_B,
+    V_F,
+    V_R,
+    X_F,
+    X_S,
+)
 from rtcore.rig.servovalve import spool_motion
 
 WORK = np.dtype(
-    [("q", "f8", (FLOWS,)), *((k, "f8", (STATES,)) for k in ("k1", "k2", "k3", "k4", "z"))], align=True
+    [("q", "f8", (FLOWS,)), *((k, "f8", (STATES,)) for k in ("k1", "k2", "k3", "k4", "z"))],
+    align=True,
 )
 REST = P_1  # the states from here on are behind the spool
 NEAR_STOP = 0.8  # of the flapper's travel
@@ -22,16 +37,20 @@ TURN = 8.0  # widths of the friction's turn, on either side
 
 
 @kernel
-def settle_gas(plant, y):
+def settle_gas(plant: Record, y: Array) -> None:
     """Set the gas volumes to what the polytropic law says at these pressures."""
     y[G_S] = plant.accumulator_supply_m3
     if y[P_S] > plant.precharge_supply_pa:
         y[G_S] *= (plant.precharge_supply_pa / y[P_S]) ** (1.0 / plant.accumulator_n)
-    y[G_T] = plant.accumulator_return_m3 * (plant.precharge_return_pa / y[P_T]) ** (1.0 / plant.accumulator_n)
+    y[G_T] = plant.accumulator_return_m3 * (plant.precharge_return_pa / y[P_T]) ** (
+        1.0 / plant.accumulator_n
+    )
 
 
 @kernel
-def move_valve(plant, x_f, v_f, x_s, command, h, steps):
+def move_valve(
+    plant: Record, x_f: float, v_f: float, x_s: float, command: float, h: float, steps: int
+) -> tuple[float, float, float]:
     """(x_f, v_f, x_s) after so many steps of `h` seconds."""
     half = 0.5 * h
     for _ in range(steps):
@@ -49,7 +68,7 @@ def move_valve(plant, x_f, v_f, x_s, command, h, steps):
 
 
 @kernel
-def piston_turns(plant, y, dy, duration_s):
+def piston_turns(plant: Record, y: Array, dy: Array, duration_s: float) -> bool:
     """Whether the piston's slip passes through the steep part of the friction, and passes quickly."""
     change = abs(dy[V_R] - dy[V_B]) * duration_s
     near = TURN / plant.coulomb_s_m
@@ -57,7 +76,9 @@ def piston_turns(plant, y, dy, duration_s):
 
 
 @kernel
-def advance(plant, y, u, work, duration_s, substeps):
+def advance(
+    plant: Record, y: Array, u: Array, work: Record, duration_s: float, substeps: int
+) -> None:
     """Carry the state `y` over `duration_s`, in at least `substeps` steps."""
     k1, k2, k3, k4, z, q = work.k1, work.k2, work.k3, work.k4, work.z, work.q
     if piston_turns(plant, y, k4, duration_s):

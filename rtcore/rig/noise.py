@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 
 NOISE = np.dtype([("s0", "u8"), ("s1", "u8")], align=True)
 
@@ -28,12 +28,12 @@ def seed_noise(noise: Any, seed: int) -> None:
 
 
 @kernel
-def _rotated(x, n):
+def _rotated(x: np.uint64, n: np.uint64) -> np.uint64:
     return (x << n) | (x >> (_SIZE - n))
 
 
 @kernel
-def _uniform(noise):
+def _uniform(noise: Record) -> float:
     """In (0, 1]."""
     s0, s1 = noise.s0, noise.s1
     total = s0 + s1
@@ -44,7 +44,7 @@ def _uniform(noise):
 
 
 @kernel
-def two_normals(noise):
+def two_normals(noise: Record) -> tuple[float, float]:
     """Two independent samples of the standard normal distribution."""
     radius = math.sqrt(-2.0 * math.log(_uniform(noise)))
     angle = 2.0 * math.pi * _uniform(noise)

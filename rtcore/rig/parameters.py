@@ -3,13 +3,11 @@
 A file need name only what differs from the rig that ships with forcerig (`rig.yaml`).
 """
 
-import math
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import yaml
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -26,16 +24,22 @@ class Supply(_Part):
 
     high_pa: float = Field(ge=5e6, le=35e6, description="pump pressure at high")
     low_pa: float = Field(ge=1e6, le=20e6, description="pump pressure at low")
-    ramp_pa_s: float = Field(ge=1e5, le=1e9, description="how fast the pump's pressure control moves")
+    ramp_pa_s: float = Field(
+        ge=1e5, le=1e9, description="how fast the pump's pressure control moves"
+    )
     tank_pa: float = Field(ge=1e5, le=2e6, description="tank and return line")
     relief_pa: float = Field(ge=6e6, le=45e6, description="cracking pressure of the relief valve")
-    relief_m3_s_pa: NotNegative = Field(le=1e-6, description="relief valve, flow over cracking pressure")
+    relief_m3_s_pa: NotNegative = Field(
+        le=1e-6, description="relief valve, flow over cracking pressure"
+    )
     bleed_m3_s: float = Field(gt=0, le=1e-2, description="bleed valve, flow at high pressure")
     line_supply_k: float = Field(gt=0, le=1e14, description="quadratic loss, Pa/(m³/s)²")
     line_return_k: float = Field(gt=0, le=1e14, description="quadratic loss, Pa/(m³/s)²")
     line_supply_r: float = Field(ge=1e5, le=1e10, description="laminar loss, Pa/(m³/s)")
     line_return_r: float = Field(ge=1e5, le=1e10, description="laminar loss, Pa/(m³/s)")
-    hose_m3_pa: float = Field(ge=3e-12, le=1e-9, description="elasticity of the hoses, below precharge")
+    hose_m3_pa: float = Field(
+        ge=3e-12, le=1e-9, description="elasticity of the hoses, below precharge"
+    )
     accumulator_supply_m3: float = Field(ge=1e-4, le=0.1)
     precharge_supply_pa: float = Field(ge=5e5, le=3e7)
     accumulator_return_m3: float = Field(ge=1e-4, le=0.1)
@@ -87,13 +91,17 @@ class LoadActuator(_Part):
     bypass_diameter_m: float = Field(ge=1e-4, le=1e-2)
     bypass_discharge: float = Field(ge=0.3, le=1)
     bypass_transition_reynolds: float = Field(ge=0.0, le=1e4)
-    bypass_linear_m3_s_pa: NotNegative = Field(le=1e-9, description="a linear bypass beside the orifice")
+    bypass_linear_m3_s_pa: NotNegative = Field(
+        le=1e-9, description="a linear bypass beside the orifice"
+    )
     leak_m3_s_pa: NotNegative = Field(le=1e-9, description="across the piston")
     drain_1_m3_s_pa: NotNegative = Field(le=1e-9)
     drain_2_m3_s_pa: NotNegative = Field(le=1e-9)
     drain_pa: float = Field(ge=5e4, le=1e6)
     coulomb_n: NotNegative = Field(le=1e4)
-    coulomb_m_s: float = Field(ge=1e-5, le=0.1, description="velocity over which friction turns round")
+    coulomb_m_s: float = Field(
+        ge=1e-5, le=0.1, description="velocity over which friction turns round"
+    )
     viscous_n_s_m: NotNegative = Field(le=1e5)
 
 
@@ -155,7 +163,11 @@ def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:
     merged = dict(base)
     for key, value in over.items():
         inner = merged.get(key)
-        merged[key] = _merged(inner, value) if isinstance(inner, dict) and isinstance(value, Mapping) else value
+        merged[key] = (
+            _merged(inner, value)
+            if isinstance(inner, dict) and isinstance(value, Mapping)
+            else value
+        )
     return merged
 
 
@@ -174,5 +186,7 @@ def load_rig(path: Path | None = None) -> RigParameters:
         return rig_from({})
     overrides = yaml.safe_load(path.read_text(encoding="utf-8"))
     if not isinstance(overrides, Mapping):
-        raise ValueError(f"{path.name}: a rig is a mapping of parts, such as 'supply: {{high_pa: 21.0e6}}'")
+        raise ValueError(
+            f"{path.name}: a rig is a mapping of parts, such as 'supply: {{high_pa: 21.0e6}}'"
+        )
     return rig_from(overrides)

@@ -18,12 +18,17 @@ X_2, V_2 = 13, 14  # mass 2
 X_T, V_T = 15, 16  # the unit's own output
 Y_F, DY_F = 17, 18  # load cell's chain, output (N) and its rate (N/s)
 Y_V = 19  # LVT's chain, output (m/s)
-G_S, G_T = 20, 21  # gas volumes of the accumulators (m³): a state, because that saves a power a stage
+G_S, G_T = (
+    20,
+    21,
+)  # gas volumes of the accumulators (m³): a state, because that saves a power a stage
 STATES = 22
 
 # Inputs of the plant, held over a tick, (INPUTS,) float64.
 U_VALVE, U_UNIT, U_PUMP, U_BLEED = 0, 1, 2, 3
-INPUTS = 4  # valve command (-), unit's position command (m), pump pressure (Pa), bleed valve open (0/1)
+INPUTS = (
+    4  # valve command (-), unit's position command (m), pump pressure (Pa), bleed valve open (0/1)
+)
 
 # Flows (m³/s at reference density) and forces (N), (FLOWS,) float64, kept for the balances.
 Q_PA, Q_AT, Q_PB, Q_BT, Q_BYPASS, Q_DRAIN_1, Q_DRAIN_2 = 0, 1, 2, 3, 4, 5, 6

@@ -1,11 +1,24 @@
 """Flow through restrictions: laminar near zero pressure drop, turbulent far from it."""
 
-from rtcore.compiled import inlined
+from rtcore.compiled import Four, inlined
 from rtcore.lanes import divide4, sqrt4
 
 
 @inlined
-def flows4(drop_a, drop_b, drop_c, drop_d, r_a, r_b, r_c, r_d, k_a, k_b, k_c, k_d):
+def flows4(
+    drop_a: float,
+    drop_b: float,
+    drop_c: float,
+    drop_d: float,
+    r_a: float,
+    r_b: float,
+    r_c: float,
+    r_d: float,
+    k_a: float,
+    k_b: float,
+    k_c: float,
+    k_d: float,
+) -> Four:
     """Flows (m³/s) of four restrictions at which drop = r Q + k Q|Q| (Pa), each the closed-form root
 
     Q = 2 drop/(r + √(r² + 4 k |drop|)), whose slope at zero is 1/r where that of a plain root is infinite.

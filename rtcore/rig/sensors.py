@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Array, Record, kernel
 from rtcore.rig.noise import two_normals
 from rtcore.rig.plant import P_1, P_2, P_S, X_S, X_T, Y_F, Y_V
 
@@ -22,7 +22,7 @@ SENSORS = np.dtype(
 
 
 @kernel
-def quantise(value, lsb, half_codes):
+def quantise(value: float, lsb: float, half_codes: float) -> float:
     """To the nearest step of a converter, held at its ends. An lsb of 0 is an ideal converter."""
     if lsb == 0.0:
         return value
@@ -30,7 +30,7 @@ def quantise(value, lsb, half_codes):
 
 
 @kernel
-def read_sensors(sensors, plant, noise, y, inputs):
+def read_sensors(sensors: Record, plant: Record, noise: Record, y: Array, inputs: Record) -> None:
     """Fill the loop's inputs from the plant's state."""
     n_force, n_velocity = two_normals(noise)
     codes = sensors.half_codes

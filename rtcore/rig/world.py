@@ -5,13 +5,25 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from rtcore.compiled import kernel
+from rtcore.compiled import Record, kernel
 from rtcore.io import SUPPLY_HIGH, SUPPLY_LOW, SUPPLY_OFF
 from rtcore.rig.constants import plant_constants
 from rtcore.rig.integrate import WORK, advance, settle_gas
 from rtcore.rig.noise import NOISE, seed_noise
 from rtcore.rig.parameters import RigParameters
-from rtcore.rig.plant import INPUTS, P_1, P_2, P_S, P_T, PLANT, STATES, U_BLEED, U_PUMP, U_UNIT, U_VALVE
+from rtcore.rig.plant import (
+    INPUTS,
+    P_1,
+    P_2,
+    P_S,
+    P_T,
+    PLANT,
+    STATES,
+    U_BLEED,
+    U_PUMP,
+    U_UNIT,
+    U_VALVE,
+)
 from rtcore.rig.sensors import SENSORS, quantise, read_sensors
 
 SUBSTEPS = 4
@@ -64,7 +76,7 @@ def make_world(rig: RigParameters, seed: int) -> npt.NDArray[Any]:
 
 
 @kernel
-def move_pump(world, supply, period_s):
+def move_pump(world: Record, supply: int, period_s: float) -> None:
     """The pump's pressure control follows what is asked of it at a limited rate; off opens the bleed valve."""
     target = world.plant.tank_pa
     if supply == SUPPLY_HIGH:
@@ -73,19 +85,21 @@ def move_pump(world, supply, period_s):
         target = world.low_pa
     step = world.ramp_pa_s * period_s
     pump = world.u[U_PUMP]
-    world.u[U_PUMP] = target if supply == SUPPLY_OFF else pump + min(max(target - pump, -step), step)
+    world.u[U_PUMP] = (
+        target if supply == SUPPLY_OFF else pump + min(max(target - pump, -step), step)
+    )
     world.u[U_BLEED] = 1.0 if supply == SUPPLY_OFF else 0.0
 
 
 @kernel
-def read_world(world, inputs, period_s):
+def read_world(world: Record, inputs: Record, period_s: float) -> None:
     """Carry the plant to now under what was held, and read its sensors."""
     advance(world.plant, world.y, world.u, world.work, period_s, SUBSTEPS)
     read_sensors(world.sensors, world.plant, world.noise, world.y, inputs)
 
 
 @kernel
-def write_world(world, outputs, period_s):
+def write_world(world: Record, outputs: Record, period_s: float) -> None:
     """Hold the outputs: a command computed in this tick acts from the next one on (one tick of delay)."""
     world.u[U_VALVE] = world.held_valve
     world.u[U_UNIT] = world.held_unit_m
@@ -93,4 +107,3 @@ def write_world(world, outputs, period_s):
     world.held_valve = quantise(outputs.valve_command, sensors.valve_lsb, sensors.half_codes)
     world.held_unit_m = outputs.displacement_command_m
     move_pump(world, outputs.supply, period_s)
-
