@@ -1,0 +1,1 @@
+"""The tests that can be run: for now those that ship with forcerig."""

@@ -1,0 +1,48 @@
+"""What routers may ask for: parts of the one console that runs in this process."""
+
+from concurrent.futures import Executor
+from typing import Annotated, cast
+
+from fastapi import Depends
+from fastapi.requests import HTTPConnection
+
+from app.rigs.service import Rig
+from app.rigs.status import StatusReader
+from app.runs.service import Runs
+from app.runs.starting import Starter
+from app.wiring import Console
+
+
+def console(connection: HTTPConnection) -> Console:
+    """The console of this process."""
+    return cast(Console, connection.app.state.console)
+
+
+ThisConsole = Annotated[Console, Depends(console)]
+
+
+def _status(this: ThisConsole) -> StatusReader:
+    return this.status
+
+
+def _rig(this: ThisConsole) -> Rig:
+    return this.rig
+
+
+def _command_threads(this: ThisConsole) -> Executor:
+    return this.command_threads
+
+
+def _runs(this: ThisConsole) -> Runs:
+    return this.runs
+
+
+def _starter(this: ThisConsole) -> Starter:
+    return this.starter
+
+
+Status = Annotated[StatusReader, Depends(_status)]
+RigService = Annotated[Rig, Depends(_rig)]
+CommandThreads = Annotated[Executor, Depends(_command_threads)]
+RunsService = Annotated[Runs, Depends(_runs)]
+StarterService = Annotated[Starter, Depends(_starter)]

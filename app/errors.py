@@ -1,0 +1,54 @@
+"""Refusals: values that say why something was not done, in a sentence an operator can act on.
+
+They know no HTTP; `app.problems` maps each code to a status.
+"""
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+
+class Code(StrEnum):
+    """Every reason to refuse. Programs match on these; sentences may change."""
+
+    INVALID_REQUEST = "invalid_request"
+    NOT_FOUND = "not_found"
+    METHOD_NOT_ALLOWED = "method_not_allowed"
+    FOREIGN_ORIGIN = "foreign_origin"
+    UNKNOWN_HOST = "unknown_host"
+    UNKNOWN_TEST = "unknown_test"
+    UNKNOWN_RUN = "unknown_run"
+    UNKNOWN_CHANNEL = "unknown_channel"
+    INVALID_TEST = "invalid_test"
+    RUN_UNDER_WAY = "run_under_way"
+    NO_DATA = "no_data"
+    LOOP_LOST = "loop_lost"
+    LOOP_SILENT = "loop_silent"
+    WRONG_MODE = "wrong_mode"
+    STALE_LEASE = "stale_lease"
+    EXPIRED = "expired"
+    REPLAYED = "replayed"
+    UNKNOWN_COMMAND = "unknown_command"
+    CAUSE_PRESENT = "cause_present"
+    INVALID_BANK = "invalid_bank"
+    NO_PROGRAM = "no_program"
+    BUSY = "busy"
+    DATABASE_UNAVAILABLE = "database_unavailable"
+    INTERNAL = "internal"
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing that is wrong in what was sent: where, what it was, what would be right."""
+
+    path: str
+    value: object
+    expected: str
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why something was not done. Returned, never raised, by services."""
+
+    code: Code
+    detail: str
+    faults: tuple[Fault, ...] = field(default=())

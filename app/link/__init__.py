@@ -1,0 +1,1 @@
+"""The link to the loop process: the only part of the app that touches the shared block."""

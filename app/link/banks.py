@@ -1,0 +1,30 @@
+"""The banks: what the loop takes over whole or not at all, between two ticks."""
+
+from threading import Lock
+from typing import Any
+
+from app.errors import Refusal
+from app.link.commander import Commander
+from app.link.life import Life
+from app.link.refusals import as_refusal
+from rtcore.codes import Opcode
+
+_BANKS = {
+    Opcode.ADOPT_GAINS: ("gains", "active_gains"),
+    Opcode.ADOPT_INTERLOCKS: ("interlocks", "active_interlocks"),
+    Opcode.ADOPT_PROGRAM: ("programs", "active_program"),
+}
+_filling = Lock()
+
+
+def adopt(life: Life, commander: Commander, opcode: Opcode, record: Any) -> Refusal | None:
+    """Fill the idle bank with `record`, a scalar of the bank's dtype, and have the loop adopt it.
+
+    Returns None where it did.
+    """
+    bank, active = _BANKS[opcode]
+    with _filling:
+        fields = life.block.fields
+        idle = 1 - int(fields[active])
+        fields[bank][idle] = record
+        return as_refusal(opcode, commander.ask(opcode, idle))

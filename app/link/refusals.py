@@ -1,0 +1,35 @@
+"""What the loop's replies mean, as refusals."""
+
+from app.errors import Code, Refusal
+from app.link.commander import Answer
+from rtcore.codes import Opcode, Reply
+
+_TEXT = {
+    Reply.WRONG_MODE: (Code.WRONG_MODE, "the rig is not in a state for that"),
+    Reply.STALE_LEASE: (Code.STALE_LEASE, "somebody else has taken control"),
+    Reply.EXPIRED: (Code.EXPIRED, "the command reached the loop too late; give it again"),
+    Reply.REPLAYED: (Code.REPLAYED, "the command had been given already"),
+    Reply.UNKNOWN: (Code.UNKNOWN_COMMAND, "the loop does not know this command"),
+    Reply.CAUSE_PRESENT: (Code.CAUSE_PRESENT, "what tripped the rig is still there"),
+    Reply.INVALID_BANK: (Code.INVALID_BANK, "the loop found the values invalid"),
+    Reply.NO_PROGRAM: (Code.NO_PROGRAM, "the loop has no test to run"),
+    Reply.BUSY: (Code.BUSY, "the loop is still checking what it was sent; try again"),
+}
+
+
+_SPOKEN = {
+    Opcode.ADOPT_GAINS: "take over the gains",
+    Opcode.ADOPT_INTERLOCKS: "take over the interlocks",
+    Opcode.ADOPT_PROGRAM: "load the test",
+    Opcode.SHUTDOWN: "shut down",
+}
+
+
+def as_refusal(opcode: Opcode, answer: Answer | Refusal) -> Refusal | None:
+    """The refusal in an answer, or None where the loop did as it was asked."""
+    if isinstance(answer, Refusal):
+        return answer
+    if answer.reply is Reply.ACCEPTED:
+        return None
+    code, reason = _TEXT[answer.reply]
+    return Refusal(code, f"Cannot {_SPOKEN.get(opcode, opcode.name.lower())}: {reason}")

@@ -1,0 +1,52 @@
+"""`WS /api/v1/live`. The origin has been checked before (`app.security`)."""
+
+import asyncio
+import logging
+
+from fastapi import APIRouter, WebSocket
+
+from app.dependencies import ThisConsole
+from app.errors import Refusal
+from app.live.client import Client, TooSlow
+from app.live.messages import ErrorFrame, Hello, parse
+from app.settings import VERSION
+
+router = APIRouter()
+_log = logging.getLogger(__name__)
+TRY_AGAIN_LATER = 1013
+
+
+@router.websocket("/api/v1/live")
+async def live(socket: WebSocket, stream: ThisConsole) -> None:
+    """The live stream, as docs/wire.md has it."""
+    await socket.accept()
+    client = Client()
+    client.put_message(Hello(period_s=stream.period_s(), version=VERSION).model_dump_json())
+    stream.broadcaster.add(client)
+    tasks = [asyncio.create_task(job) for job in (client.send(socket), _listen(socket, client))]
+    try:
+        done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        if any(isinstance(task.exception(), TooSlow) for task in done):
+            _log.warning("a browser left too many events unread: closed")
+            await socket.close(TRY_AGAIN_LATER, "too many events unread")
+    finally:
+        stream.broadcaster.remove(client)
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+
+async def _listen(socket: WebSocket, client: Client) -> None:
+    """Read the browser's frames until it leaves."""
+    while True:
+        try:
+            frame = await socket.receive()
+        except RuntimeError:
+            return
+        if frame["type"] == "websocket.disconnect":
+            return
+        wanted = parse(frame.get("text"))
+        if isinstance(wanted, Refusal):
+            client.put_message(ErrorFrame(code=wanted.code, detail=wanted.detail).model_dump_json())
+        else:
+            client.subscribe(wanted)

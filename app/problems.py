@@ -1,0 +1,164 @@
+"""Problem documents (RFC 9457): the one table from refusal codes to HTTP statuses."""
+
+import logging
+from collections.abc import Mapping
+from typing import Any, TypeVar
+
+from fastapi import FastAPI, Request
+from fastapi.encoders import jsonable_encoder
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel
+from sqlalchemy.exc import OperationalError
+from starlette.exceptions import HTTPException
+
+from app.errors import Code, Fault, Refusal
+
+T = TypeVar("T")
+MEDIA_TYPE = "application/problem+json"
+LONGEST_VALUE = 200
+
+STATUS: Mapping[Code, int] = {
+    Code.INVALID_REQUEST: 422,
+    Code.NOT_FOUND: 404,
+    Code.METHOD_NOT_ALLOWED: 405,
+    Code.FOREIGN_ORIGIN: 403,
+    Code.UNKNOWN_HOST: 403,
+    Code.UNKNOWN_TEST: 404,
+    Code.UNKNOWN_RUN: 404,
+    Code.UNKNOWN_CHANNEL: 422,
+    Code.INVALID_TEST: 422,
+    Code.RUN_UNDER_WAY: 409,
+    Code.NO_DATA: 404,
+    Code.LOOP_LOST: 503,
+    Code.LOOP_SILENT: 504,
+    Code.WRONG_MODE: 409,
+    Code.STALE_LEASE: 409,
+    Code.EXPIRED: 504,
+    Code.REPLAYED: 409,
+    Code.UNKNOWN_COMMAND: 422,
+    Code.CAUSE_PRESENT: 409,
+    Code.INVALID_BANK: 422,
+    Code.NO_PROGRAM: 409,
+    Code.BUSY: 409,
+    Code.DATABASE_UNAVAILABLE: 503,
+    Code.INTERNAL: 500,
+}
+
+
+class FaultOut(BaseModel):
+    """One thing that is wrong in what was sent."""
+
+    path: str
+    value: Any = None
+    expected: str
+
+
+class Problem(BaseModel):
+    """A problem document."""
+
+    type: str = "about:blank"
+    title: str
+    status: int
+    code: Code
+    detail: str
+    errors: list[FaultOut] = []
+
+
+PROBLEMS: dict[int | str, dict[str, Any]] = {
+    "default": {"model": Problem, "description": "A problem document (RFC 9457)"}
+}
+
+
+class Refused(Exception):
+    """A refusal on its way out of a router. Only routers raise it, through `granted`."""
+
+    def __init__(self, refusal: Refusal) -> None:
+        super().__init__(refusal.detail)
+        self.refusal = refusal
+
+
+def granted(result: T | Refusal) -> T:
+    """The result of a service call, unless it is a refusal: that becomes a problem document."""
+    if isinstance(result, Refusal):
+        raise Refused(result)
+    return result
+
+
+def title(code: Code) -> str:
+    """A code as words: `wrong_mode` is "Wrong mode"."""
+    return code.replace("_", " ").capitalize()
+
+
+def problem(refusal: Refusal, status: int | None = None) -> JSONResponse:
+    """A refusal as a response."""
+    body = Problem(
+        title=title(refusal.code),
+        status=status or STATUS[refusal.code],
+        code=refusal.code,
+        detail=refusal.detail,
+        errors=[FaultOut(path=f.path, value=f.value, expected=f.expected) for f in refusal.faults],
+    )
+    return JSONResponse(jsonable_encoder(body), body.status, media_type=MEDIA_TYPE)
+
+
+def _path(location: tuple[int | str, ...]) -> str:
+    """`("body", "blocks", 1, "kind")` as `body.blocks[1].kind`."""
+    return "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in location).lstrip(".")
+
+
+def _shown(value: Any) -> Any:
+    """What was sent, but not pages of it."""
+    if isinstance(value, float) and value - value != 0.0:
+        return str(value)  # JSON has neither NaN nor infinity
+    if value is None or isinstance(value, bool | int | float):
+        return value
+    text = value if isinstance(value, str) else repr(value)
+    return text if len(text) <= LONGEST_VALUE else text[:LONGEST_VALUE] + "…"
+
+
+def invalid_request(error: RequestValidationError) -> Refusal:
+    """What FastAPI found wrong in a request, as a refusal."""
+    faults = tuple(Fault(_path(e["loc"]), _shown(e.get("input")), e["msg"]) for e in error.errors())
+    detail = "; ".join(f"{fault.path}: {fault.expected}" for fault in faults)
+    return Refusal(Code.INVALID_REQUEST, detail or "The request could not be understood", faults)
+
+
+def _http_code(status: int) -> Code:
+    known = {404: Code.NOT_FOUND, 405: Code.METHOD_NOT_ALLOWED}
+    return known.get(status, Code.INVALID_REQUEST if status < 500 else Code.INTERNAL)
+
+
+def install_handlers(app: FastAPI) -> None:
+    """Answer every failure of `app` with a problem document."""
+
+    async def refused(request: Request, error: Exception) -> JSONResponse:
+        assert isinstance(error, Refused)
+        return problem(error.refusal)
+
+    async def invalid(request: Request, error: Exception) -> JSONResponse:
+        assert isinstance(error, RequestValidationError)
+        return problem(invalid_request(error))
+
+    async def http(request: Request, error: Exception) -> JSONResponse:
+        assert isinstance(error, HTTPException)
+        response = problem(Refusal(_http_code(error.status_code), error.detail), error.status_code)
+        response.headers.update(error.headers or {})
+        return response
+
+    async def database(request: Request, error: Exception) -> JSONResponse:
+        logging.getLogger(__name__).error("database: %s", error)
+        return problem(
+            Refusal(
+                Code.DATABASE_UNAVAILABLE, "The database does not answer: try again in a moment"
+            )
+        )
+
+    async def unexpected(request: Request, error: Exception) -> JSONResponse:
+        return problem(Refusal(Code.INTERNAL, "An error of the console's own: see its log"))
+
+    app.add_exception_handler(Refused, refused)
+    app.add_exception_handler(RequestValidationError, invalid)
+    app.add_exception_handler(HTTPException, http)
+    app.add_exception_handler(OperationalError, database)
+    app.add_exception_handler(Exception, unexpected)

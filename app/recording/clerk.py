@@ -1,0 +1,119 @@
+"""The clerk: a thread that writes down what the recorder found; the drain never waits for it.
+
+Jobs are done in order. One that fails because the database or the disk does not answer is tried
+again; what is on disk stays as it is until then.
+"""
+
+import logging
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from queue import SimpleQueue
+from threading import Event, Thread
+from typing import Any, NamedTuple, Protocol
+
+from sqlalchemy.exc import SQLAlchemyError
+
+from app.link.events import LoopEvent
+from app.recording.files import convert, remove_parts
+from app.recording.outcome import Ending
+from app.recording.run_file import Recorded
+
+_log = logging.getLogger(__name__)
+RETRY_S = 1.0
+ATTEMPTS_AT_THE_END = 5
+
+
+class OpenRun(NamedTuple):
+    """A run that nobody has written the end of."""
+
+    id: int
+    first_tick: int | None
+    loop_life: str
+
+
+class RunBook(Protocol):
+    """Where runs are written down."""
+
+    def open_runs(self) -> Sequence[OpenRun]:
+        """The runs without an outcome, oldest first."""
+
+    def began(self, run_id: int, first_tick: int) -> None:
+        """Its first tick has been seen."""
+
+    def reported(self, run_id: int, events: Sequence[LoopEvent]) -> None:
+        """The loop reported these; those that are known already stay as they are."""
+
+    def ended(self, run_id: int, recorded: Recorded, ending: Ending) -> None:
+        """It is over, and its recording is complete."""
+
+    def frozen(self, run_id: int) -> dict[str, Any]:
+        """The definition, settings and conditions of a run, for its file."""
+
+
+Job = Callable[[], None]
+
+
+class Clerk:
+    """Does the recorder's paperwork in a thread of its own."""
+
+    def __init__(self, runs_dir: Path, book: RunBook) -> None:
+        self._runs_dir = runs_dir
+        self._book = book
+        self._jobs: SimpleQueue[Job | None] = SimpleQueue()
+        self._ending: set[int] = set()  # runs whose end is on its way into the book
+        self._stopping = Event()
+        self._thread = Thread(target=self._work, name="clerk", daemon=True)
+
+    def start(self) -> None:
+        """Begin to work."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Finish what is on the desk, then end. What fails now is done at the next start."""
+        self._stopping.set()
+        self._jobs.put(None)
+        self._thread.join()
+
+    def open_runs(self, loop_life: str | None) -> list[OpenRun]:
+        """The runs of this life of the loop that have no end yet; None: of every life."""
+        runs = [run for run in self._book.open_runs() if run.id not in self._ending]
+        return [run for run in runs if loop_life in (None, run.loop_life)]
+
+    def began(self, run_id: int, first_tick: int) -> None:
+        """A run's first tick has been seen."""
+        self._jobs.put(lambda: self._book.began(run_id, first_tick))
+
+    def reported(self, run_id: int, events: Sequence[LoopEvent]) -> None:
+        """The loop reported these of a run."""
+        self._jobs.put(lambda: self._book.reported(run_id, events))
+
+    def ended(self, run_id: int, recorded: Recorded, ending: Ending) -> None:
+        """A run is over: make its file, write its end down, remove what the file was made from."""
+        self._ending.add(run_id)
+        self._jobs.put(lambda: self._end(run_id, recorded, ending))
+
+    def _end(self, run_id: int, recorded: Recorded, ending: Ending) -> None:
+        folder = self._runs_dir / str(run_id)
+        if recorded.ticks:
+            convert(folder, self._book.frozen(run_id), recorded, ending)
+        self._book.ended(run_id, recorded, ending)
+        remove_parts(folder)
+        self._ending.discard(run_id)
+        _log.info("run %d: %s, %d ticks", run_id, ending.outcome, recorded.ticks)
+
+    def _work(self) -> None:
+        while (job := self._jobs.get()) is not None:
+            attempts = 0
+            while not self._done(job) and attempts < ATTEMPTS_AT_THE_END:
+                attempts += self._stopping.is_set()
+                self._stopping.wait(RETRY_S)
+
+    def _done(self, job: Job) -> bool:
+        try:
+            job()
+        except (SQLAlchemyError, OSError):
+            _log.exception("could not write a run down; trying again")
+            return False
+        except Exception:
+            _log.exception("could not write a run down")
+        return True

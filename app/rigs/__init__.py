@@ -1,0 +1,1 @@
+"""The rig: its status, and the commands that an operator gives."""

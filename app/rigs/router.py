@@ -1,0 +1,36 @@
+"""`/api/v1/rig` and `/api/v1/channels`."""
+
+import asyncio
+
+from fastapi import APIRouter
+
+from app.dependencies import CommandThreads, RigService, Status
+from app.problems import PROBLEMS, granted
+from app.rigs.schemas import ChannelOut, CommandDone, CommandRequest, RigStatus
+from rtcore.channels import CHANNELS
+
+router = APIRouter(prefix="/api/v1", tags=["rig"], responses=PROBLEMS)
+
+
+@router.get("/rig", operation_id="getRig")
+def get_rig(status: Status) -> RigStatus:
+    """The status, as it is on the live stream."""
+    return status.read()
+
+
+@router.post("/rig/commands", operation_id="commandRig")
+async def command_rig(
+    body: CommandRequest, rig: RigService, threads: CommandThreads
+) -> CommandDone:
+    """Give a command. Answers once the loop has taken it.
+
+    It has threads of its own: however many slow requests there are, Stop does not queue behind them.
+    """
+    answer = await asyncio.get_running_loop().run_in_executor(threads, rig.command, body.command)
+    return granted(answer)
+
+
+@router.get("/channels", operation_id="listChannels")
+def list_channels() -> list[ChannelOut]:
+    """The channels of the telemetry: columns of every recording."""
+    return [ChannelOut(**channel._asdict()) for channel in CHANNELS]

@@ -1,0 +1,158 @@
+"""What the requests about the rig take and give; the status is on the live stream too."""
+
+from enum import StrEnum
+
+from pydantic import BaseModel, ConfigDict
+
+from rtcore.modes import Mode
+
+
+class ModeWord(StrEnum):
+    """State of the loop; `starting` until its first sign of life, `lost` without one."""
+
+    TRIPPED = "tripped"
+    OFF = "off"
+    PRESSURISING = "pressurising"
+    READY = "ready"
+    RUNNING = "running"
+    HOLDING = "holding"
+    STOPPING = "stopping"
+    STARTING = "starting"
+    LOST = "lost"
+
+    @staticmethod
+    def of(mode: Mode) -> "ModeWord":
+        return ModeWord(mode.name.lower())
+
+
+class RigCommand(StrEnum):
+    """What an operator may ask of the rig. Starting a run is its own request."""
+
+    RESET = "reset"
+    PRESSURISE = "pressurise"
+    DEPRESSURISE = "depressurise"
+    TARE = "tare"
+    HOLD = "hold"
+    RESUME = "resume"
+    STOP = "stop"
+    SHUTDOWN = "shutdown"
+
+
+class CommandRequest(BaseModel):
+    """A command to the rig."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    command: RigCommand
+
+
+class CommandDone(BaseModel):
+    """The loop has taken the command in this tick."""
+
+    command: RigCommand
+    tick: int
+
+
+class Trip(BaseModel):
+    """A latched detector; `first` for the one that tripped first."""
+
+    code: str
+    text: str
+    tick: int
+    first: bool
+
+
+class Condition(BaseModel):
+    """A real-time condition of the loop: whether it was had, and what was got or why not."""
+
+    name: str
+    had: bool
+    reason: str
+
+
+class LoopHealth(BaseModel):
+    """The loop process. Times are over its whole life; null beyond the histogram's 1 ms."""
+
+    alive: bool
+    data_age_s: float | None
+    tick: int
+    rate_hz: float | None
+    pid: int | None
+    deadlines_missed: int
+    realtime: bool
+    wakeup_latency_p50_s: float | None
+    wakeup_latency_p99_s: float | None
+    wakeup_latency_max_s: float | None
+    tick_time_p50_s: float | None
+    tick_time_p99_s: float | None
+    tick_time_max_s: float | None
+    conditions: list[Condition]
+
+
+class RunProgress(BaseModel):
+    """The run under way; `block` counts from 0, -1 outside of every block."""
+
+    id: int
+    test_name: str
+    block: int
+    blocks: int
+    cycle: int
+    cycles: int | None
+    elapsed_s: float
+    duration_s: float | None
+
+
+class RecorderOut(BaseModel):
+    """The recorder; `trouble` says why it cannot write, null where it can."""
+
+    recording: bool
+    lost_ticks: int
+    bytes: int
+    trouble: str | None
+
+
+class CommandReasons(BaseModel):
+    """Why a command cannot be given now, null where it can."""
+
+    reset: str | None
+    pressurise: str | None
+    depressurise: str | None
+    tare: str | None
+    start: str | None
+    hold: str | None
+    resume: str | None
+    stop: str | None
+    shutdown: str | None
+
+
+class Limits(BaseModel):
+    """What the detectors in force allow; the supply's is what the pump gives. Null for no limit."""
+
+    force_n: float | None
+    force_error_n: float | None
+    displacement_m: float | None
+    velocity_m_s: float | None
+    supply_pressure_pa: float | None
+
+
+class RigStatus(BaseModel):
+    """Everything that is always on the screen."""
+
+    mode: ModeWord
+    mode_since_s: float | None
+    readings: dict[str, float | None]
+    limits: Limits
+    trips: list[Trip]
+    loop: LoopHealth
+    run: RunProgress | None
+    recorder: RecorderOut
+    commands: CommandReasons
+
+
+class ChannelOut(BaseModel):
+    """A channel of the telemetry; `dtype` as NumPy writes it."""
+
+    name: str
+    unit: str
+    dtype: str
+    doc: str

@@ -1,0 +1,48 @@
+"""Commands to the rig. They need the shared block and nothing else: no database, no files."""
+
+from collections.abc import Callable
+
+from app.errors import Code, Refusal
+from app.link.life import Life
+from app.link.link import Link
+from app.rigs.schemas import CommandDone, CommandReasons, RigCommand
+from rtcore.codes import Opcode
+
+
+class Rig:
+    """Gives commands; `reasons` says why one cannot be given now."""
+
+    def __init__(self, link: Link, reasons: Callable[[], CommandReasons]) -> None:
+        self._link = link
+        self._reasons = reasons
+
+    def command(self, command: RigCommand) -> CommandDone | Refusal:
+        """Give a command and wait for the loop's answer."""
+        answer = self._link.ask(Opcode[command.name])
+        if not isinstance(answer, Refusal):
+            return CommandDone(command=command, tick=answer.tick)
+        if command is RigCommand.STOP and answer.code is Code.WRONG_MODE:
+            return self._nothing_to_stop(answer)
+        return self._in_plain_words(command, answer)
+
+    def why_not_start(self) -> Refusal | None:
+        """Why no run can be started now."""
+        reason = self._reasons().start
+        return None if reason is None else Refusal(Code.WRONG_MODE, reason)
+
+    def _nothing_to_stop(self, refusal: Refusal) -> CommandDone | Refusal:
+        """A Stop with nothing to stop is done already."""
+        life: Life | None = self._link.life
+        record = None if life is None else life.snapshot()
+        return (
+            refusal
+            if record is None
+            else CommandDone(command=RigCommand.STOP, tick=int(record["tick"]))
+        )
+
+    def _in_plain_words(self, command: RigCommand, refusal: Refusal) -> Refusal:
+        """What the operator can do about it, where the table of reasons knows."""
+        if refusal.code not in (Code.WRONG_MODE, Code.CAUSE_PRESENT):
+            return refusal
+        reason = getattr(self._reasons(), command.value)
+        return refusal if reason is None else Refusal(refusal.code, reason)

@@ -1,0 +1,164 @@
+"""The status of the rig, read from the shared block: no database, no waiting."""
+
+import math
+from threading import Lock
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from app.link.life import Life
+from app.link.link import Link
+from app.link.words import trip_code
+from app.recording.recorder import Recorder
+from app.rigs.history import History
+from app.rigs.loop_health import loop_health
+from app.rigs.reasons import Situation, reasons
+from app.rigs.schemas import (
+    CommandReasons,
+    Limits,
+    ModeWord,
+    RecorderOut,
+    RigStatus,
+    RunProgress,
+    Trip,
+)
+from app.runs.plans import Plans
+from rtcore.channels import CHANNELS, TELEMETRY
+from rtcore.interlocks import Comparison, Quantity
+from rtcore.modes import Mode
+
+_READINGS = [c.name for c in CHANNELS if c.name not in ("tick", "time_s", "trips", "run", "mode")]
+_NO_RECORD = np.full(1, -1, TELEMETRY)[0]
+
+
+class StatusReader:
+    """Puts the status together. May be asked from any thread."""
+
+    def __init__(
+        self, link: Link, recorder: Recorder, plans: Plans, supply_pressure_pa: float
+    ) -> None:
+        self._link = link
+        self._recorder = recorder
+        self._plans = plans
+        self._supply_pressure_pa = supply_pressure_pa
+        self._history: History | None = None
+        self._reading = Lock()
+
+    def read(self) -> RigStatus:
+        """The status now."""
+        life = self._link.life
+        record = None if life is None else life.snapshot()
+        if life is None or record is None:
+            return self._without_loop(life)
+        with self._reading:
+            history = self._of(life)
+            history.update(int(record["tick"]))
+            trips = _trips(life, record, history)
+            rate_hz = history.rate_hz()
+            ticks_in_mode = history.ticks_in_mode(int(record["tick"]))
+        health = loop_health(life, record, rate_hz)
+        period_s = life.period_ns * 1e-9
+        return RigStatus(
+            mode=ModeWord.of(Mode(int(record["mode"]))) if health.alive else self._absent(),
+            mode_since_s=ticks_in_mode * period_s if health.alive else None,
+            readings={name: _number(record[name]) for name in _READINGS},
+            limits=self._limits(life.detectors()),
+            trips=trips,
+            loop=health,
+            run=self._progress(record, period_s) if health.alive else None,
+            recorder=self._recorder_out(),
+            commands=_reasons(record, trips, alive=health.alive),
+        )
+
+    def _of(self, life: Life) -> History:
+        if self._history is None or self._history.life is not life:
+            self._history = History(life)
+        return self._history
+
+    def _without_loop(self, life: Life | None) -> RigStatus:
+        no_detectors = np.empty(0)
+        return RigStatus(
+            mode=self._absent(),
+            mode_since_s=None,
+            readings=dict.fromkeys(_READINGS),
+            limits=self._limits(no_detectors),
+            trips=[],
+            loop=loop_health(life, _NO_RECORD, None),
+            run=None,
+            recorder=self._recorder_out(),
+            commands=reasons(Situation(None, None, math.nan)),
+        )
+
+    def _absent(self) -> ModeWord:
+        return ModeWord.STARTING if self._link.starting else ModeWord.LOST
+
+    def _limits(self, detectors: npt.NDArray[Any]) -> Limits:
+        def least(quantity: Quantity) -> float | None:
+            watching = [
+                float(d["threshold"])
+                for d in detectors
+                if d["enabled"]
+                and d["quantity"] == quantity
+                and d["comparison"] != Comparison.BELOW
+            ]
+            return min(watching, default=None)
+
+        return Limits(
+            force_n=least(Quantity.FORCE_N),
+            force_error_n=least(Quantity.FORCE_ERROR_N),
+            displacement_m=least(Quantity.DISPLACEMENT_M),
+            velocity_m_s=least(Quantity.VELOCITY_M_S),
+            supply_pressure_pa=self._supply_pressure_pa,
+        )
+
+    def _progress(self, record: Any, period_s: float) -> RunProgress | None:
+        run_id, tick, block = int(record["run"]), int(record["tick"]), int(record["block"])
+        plan = self._plans[run_id]
+        if run_id == 0 or plan is None:
+            return None
+        first_tick = tick if plan.first_tick is None else plan.first_tick
+        return RunProgress(
+            id=run_id,
+            test_name=plan.test_name,
+            block=block,
+            blocks=len(plan.blocks),
+            cycle=int(record["cycle"]),
+            cycles=plan.cycles(block),
+            elapsed_s=(tick - first_tick) * period_s,
+            duration_s=plan.duration_s,
+        )
+
+    def _recorder_out(self) -> RecorderOut:
+        state = self._recorder.state()
+        return RecorderOut(
+            recording=state.recording,
+            lost_ticks=state.lost_ticks,
+            bytes=state.size_bytes,
+            trouble=state.trouble,
+        )
+
+
+def _trips(life: Life, record: Any, history: History) -> list[Trip]:
+    """What is latched, the first to trip on top."""
+    latched, first = int(record["trips"]), int(life.block.fields["first_out"])
+    found = []
+    for i, detector in enumerate(life.detectors()):
+        if latched >> i & 1:
+            event = history.trip(i)
+            text = event.text if event else "Tripped before this console was started"
+            tick = event.tick if event else 0
+            found.append(Trip(code=trip_code(detector), text=text, tick=tick, first=i == first))
+    return sorted(found, key=lambda trip: (not trip.first, trip.tick))
+
+
+def _reasons(record: Any, trips: list[Trip], *, alive: bool) -> CommandReasons:
+    mode = Mode(int(record["mode"])) if alive else None
+    trip = trips[0].text if trips else None
+    return reasons(Situation(mode, trip, float(record["supply_pressure_pa"])))
+
+
+def _number(value: Any) -> float | None:
+    """JSON has neither NaN nor infinity: null."""
+    number = float(value)
+    return number if math.isfinite(number) else None

@@ -1,0 +1,44 @@
+"""What is expected of the runs under way: kept in memory, for the status asks ten times a second."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from app.db import Database
+from app.runs import repository
+from app.runs.models import Run
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a run comes to, as `app.definitions.outline` has it."""
+
+    test_name: str
+    first_tick: int | None
+    blocks: tuple[dict[str, Any], ...]
+    duration_s: float
+
+    def cycles(self, block: int) -> int | None:
+        """The counted cycles of a block, None where it has none."""
+        known = 0 <= block < len(self.blocks)
+        return (int(self.blocks[block]["cycles"]) or None) if known else None
+
+
+class Plans:
+    """The plan of the run under way, by its number."""
+
+    def __init__(self) -> None:
+        self._plans: dict[int, Plan] = {}
+
+    def __getitem__(self, run_id: int) -> Plan | None:
+        return self._plans.get(run_id)
+
+    def remember(self, run: Run, first_tick: int | None) -> None:
+        """A run has begun: forget those before it."""
+        blocks, duration_s = tuple(run.plan["blocks"]), float(run.plan["duration_s"])
+        self._plans = {run.id: Plan(run.test_name, first_tick, blocks, duration_s)}
+
+    def recall(self, database: Database) -> None:
+        """After a restart of the app: the run that may still be under way."""
+        with database.reading() as session:
+            for run in repository.without_outcome(session):
+                self.remember(run, run.first_tick)

@@ -1,0 +1,119 @@
+"""What the requests about runs take and give."""
+
+from datetime import datetime
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.recording.outcome import Outcome
+from app.runs.models import Run, RunEvent
+
+
+class RunStart(BaseModel):
+    """Which test to run."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    test_id: Annotated[str, Field(min_length=1, max_length=100)]
+
+
+class RunSummary(BaseModel):
+    """A run in the list; `outcome` is null while it is under way."""
+
+    id: int
+    test_id: str
+    test_name: str
+    started_at: datetime
+    ended_at: datetime | None
+    outcome: Outcome | None
+    verdict: Literal["pass", "fail", "unset"]
+    ticks: int
+    missing_ticks: int
+    duration_s: float | None
+    reason: str | None
+
+    @staticmethod
+    def fields_of(run: Run) -> dict[str, Any]:
+        """The fields of a summary from its row."""
+        names = RunSummary.model_fields.keys() - {"duration_s"}
+        duration_s = run.ticks * run.period_ns * 1e-9 if run.outcome else None
+        return {name: getattr(run, name) for name in names} | {"duration_s": duration_s}
+
+    @staticmethod
+    def of(run: Run) -> "RunSummary":
+        return RunSummary.model_validate(RunSummary.fields_of(run))
+
+
+class RunDetail(RunSummary):
+    """A run with everything that it was made with."""
+
+    first_tick: int | None
+    last_tick: int | None
+    period_s: float
+    definition: dict[str, Any]
+    controller: dict[str, Any]
+    interlocks: dict[str, Any]
+    rig: dict[str, Any]
+    conditions: list[dict[str, Any]]
+    software_version: str
+
+    @staticmethod
+    def of(run: Run) -> "RunDetail":
+        more = RunDetail.model_fields.keys() - RunSummary.model_fields.keys() - {"period_s"}
+        fields = RunSummary.fields_of(run) | {name: getattr(run, name) for name in more}
+        return RunDetail.model_validate(fields | {"period_s": run.period_ns * 1e-9})
+
+
+class RunPage(BaseModel):
+    """A page of runs, newest first; `next` is the number to ask for those before."""
+
+    runs: list[RunSummary]
+    next: int | None
+
+
+class RunEventOut(BaseModel):
+    """What the loop reported during a run; `time_s` counts from the run's first tick."""
+
+    tick: int
+    time_s: float
+    kind: str
+    code: str
+    text: str
+    value: float | None
+    limit: float | None
+
+    @staticmethod
+    def of(event: RunEvent, run: Run) -> "RunEventOut":
+        since = event.tick - (run.first_tick or 0)
+        return RunEventOut(
+            tick=event.tick,
+            time_s=since * run.period_ns * 1e-9,
+            kind=event.kind,
+            code=event.code,
+            text=event.text,
+            value=event.value,
+            limit=event.limit,
+        )
+
+
+class RunEvents(BaseModel):
+    """The events of a run, in order."""
+
+    events: list[RunEventOut]
+
+
+class Band(BaseModel):
+    """Least and greatest value at each time; null where the channel was not a number."""
+
+    min: list[float | None]
+    max: list[float | None]
+
+
+class RunSamples(BaseModel):
+    """Channels of a run over time; `time_s` counts from the run's first tick."""
+
+    from_s: float
+    to_s: float
+    decimated: bool
+    time_s: list[float]
+    channels: dict[str, Band]

@@ -1,0 +1,114 @@
+"""Starting a run: the test goes to the loop whole, its row into the database, and only then it starts."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from threading import Lock
+from typing import Any
+
+from app.db import Database
+from app.definitions.definition import Definition
+from app.definitions.expansion import expand
+from app.definitions.library import library
+from app.definitions.outline import outline
+from app.errors import Code, Refusal
+from app.link.life import Life
+from app.link.link import Link
+from app.recording.recorder import Recorder
+from app.runs import repository
+from app.runs.models import Run
+from app.runs.plans import Plans
+from app.settings import VERSION
+from rtcore.codes import Opcode
+from rtcore.modes import Mode
+
+_CATCHING_UP = Refusal(
+    Code.BUSY, "Cannot start: the recorder is still reading what happened before; try again"
+)
+
+
+@dataclass(frozen=True)
+class Frozen:
+    """The settings that a run is made with, as JSON."""
+
+    controller: Mapping[str, Any]
+    interlocks: Mapping[str, Any]
+    rig: Mapping[str, Any]
+
+
+class Starter:
+    """Starts runs, one at a time."""
+
+    def __init__(
+        self,
+        database: Database,
+        link: Link,
+        recorder: Recorder,
+        frozen: Frozen,
+        plans: Plans,
+        why_not: Callable[[], Refusal | None],
+    ) -> None:
+        self._database = database
+        self._link = link
+        self._recorder = recorder
+        self._frozen = frozen
+        self._plans = plans
+        self._why_not = why_not
+        self._one_at_a_time = Lock()
+
+    def start(self, test_id: str) -> Run | Refusal:
+        """Run a test of the library. Returns its row once the loop has begun it."""
+        definition = library().get(test_id)
+        if definition is None:
+            return Refusal(Code.UNKNOWN_TEST, f"There is no test {test_id!r}")
+        with self._one_at_a_time:
+            return self._start(test_id, definition)
+
+    def _start(self, test_id: str, definition: Definition) -> Run | Refusal:
+        life = self._link.life
+        refusal = self._why_not()
+        if refusal is not None or life is None:
+            return refusal or Refusal(Code.LOOP_LOST, "Cannot start: the loop process does not run")
+        if self._recorder.following is not life:
+            return _CATCHING_UP
+        refusal = self._link.adopt(Opcode.ADOPT_PROGRAM, expand(definition))
+        if refusal is not None:
+            return refusal
+        run = self._enter(life, test_id, definition)
+        answer = self._link.ask(Opcode.START, run.id)
+        if isinstance(answer, Refusal):
+            return self._withdraw(run, life, answer)
+        self._plans.remember(run, answer.tick)
+        with self._database.writing() as session:
+            repository.set_first_tick(session, run.id, answer.tick)
+        return run
+
+    def _enter(self, life: Life, test_id: str, definition: Definition) -> Run:
+        """The row of a run that is about to start; its number is how the loop will know it."""
+        run = Run(
+            test_id=test_id,
+            test_name=definition.name,
+            definition=definition.model_dump(mode="json", by_alias=True),
+            plan=outline(definition).model_dump(mode="json"),
+            controller=dict(self._frozen.controller),
+            interlocks=dict(self._frozen.interlocks),
+            rig=dict(self._frozen.rig),
+            conditions=life.conditions(),
+            software_version=VERSION,
+            loop_life=life.name,
+            period_ns=life.period_ns,
+            started_at=datetime.now(UTC),
+            ticks=0,
+            missing_ticks=0,
+            verdict="unset",
+        )
+        with self._database.writing() as session:
+            session.add(run)
+        return run
+
+    def _withdraw(self, run: Run, life: Life, refusal: Refusal) -> Refusal:
+        """The loop did not start it: no run. Where it did not answer, it may have: the row stays."""
+        if refusal.code not in (Code.LOOP_SILENT, Code.LOOP_LOST) or life.mode() is Mode.READY:
+            with self._database.writing() as session:
+                session.delete(session.merge(run))
+        return refusal

@@ -1,0 +1,113 @@
+"""Who may ask at all: the host that was asked for, the origin of who asks, and headers on the answers."""
+
+import ipaddress
+import socket
+from collections.abc import Collection, Iterable
+from urllib.parse import urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from app.errors import Code, Refusal
+from app.problems import problem
+
+_SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
+_POLICY = "; ".join(
+    (
+        "default-src 'self'",
+        "style-src 'self' 'unsafe-inline'",  # Svelte and uPlot place things by style attributes
+        "img-src 'self' data: blob:",
+        "connect-src 'self'",
+        "object-src 'none'",
+        "base-uri 'none'",
+        "form-action 'self'",
+        "frame-ancestors 'none'",
+    )
+)
+_HEADERS = {
+    "Content-Security-Policy": _POLICY,
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+}
+
+
+def known_hosts(configured: Iterable[str]) -> frozenset[str]:
+    """The names under which this machine may be asked, besides its addresses."""
+    return frozenset({"localhost", socket.gethostname().lower(), *(h.lower() for h in configured)})
+
+
+def _host_name(host: str) -> str:
+    return (urlsplit(f"//{host}").hostname or "").lower()
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True
+
+
+def refuse(
+    method: str, headers: Headers, hosts: Collection[str], *, socket: bool
+) -> Refusal | None:
+    """Why a request is refused, None where it may pass.
+
+    A name that is not this machine's comes from DNS rebinding; a foreign origin on anything that
+    changes the rig comes from another site's page. What is not a browser sends no origin.
+    """
+    host, origin = headers.get("host", ""), headers.get("origin")
+    try:
+        name = _host_name(host)
+        theirs = None if origin is None else urlsplit(origin).netloc.lower()
+    except ValueError:
+        return Refusal(Code.UNKNOWN_HOST, "The host or origin of this request cannot be read")
+    if name not in hosts and not _is_address(name):
+        detail = f"This console is not known as {name!r}: add the name to FORCERIG_ALLOWED_HOSTS"
+        return Refusal(Code.UNKNOWN_HOST, detail)
+    if method in _SAFE and not socket:
+        return None
+    foreign = theirs is not None and theirs != host.lower()
+    if foreign or headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
+        return Refusal(Code.FOREIGN_ORIGIN, "Only the console's own pages may do this")
+    return None
+
+
+class Guard:
+    """ASGI middleware that refuses foreign requests, and puts security headers on every answer."""
+
+    def __init__(self, app: ASGIApp, hosts: Collection[str]) -> None:
+        self._app = app
+        self._hosts = hosts
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        is_socket = scope["type"] == "websocket"
+        refusal = refuse(
+            scope.get("method", "GET"), Headers(scope=scope), self._hosts, socket=is_socket
+        )
+        if is_socket:
+            if refusal is None:
+                await self._app(scope, receive, send)
+            else:
+                await receive()
+                await send({"type": "websocket.close", "code": 1008, "reason": refusal.detail})
+            return
+        app = self._app if refusal is None else problem(refusal)
+        await app(scope, receive, _with_headers(send))
+
+
+def _with_headers(send: Send) -> Send:
+    async def wrapped(message: Message) -> None:
+        if message["type"] == "http.response.start":
+            headers = MutableHeaders(scope=message)
+            for name, value in _HEADERS.items():
+                headers.setdefault(name, value)
+        await send(message)
+
+    return wrapped

@@ -1,0 +1,37 @@
+"""Settings of the backend: from the command line, or from environment variables `FORCERIG_…`."""
+
+from importlib.metadata import version
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+from pydantic_settings import BaseSettings, SettingsConfigDict
+
+VERSION = version("forcerig")
+
+
+class Settings(BaseSettings):
+    """Where the console listens, where it keeps its data, and how it starts the loop."""
+
+    model_config = SettingsConfigDict(env_prefix="FORCERIG_", frozen=True, extra="forbid")
+
+    host: str = "127.0.0.1"
+    port: Annotated[int, Field(ge=0, le=65535)] = 8000  # 0: any free one
+    data_dir: Path = Path("data")
+    database_url: str | None = None  # None: SQLite in the data directory
+    allowed_hosts: tuple[str, ...] = ()  # names besides localhost under which browsers come
+    rig_file: Path | None = None  # None: the rig of the paper
+    seed: Annotated[int, Field(ge=0)] = 0
+    period_us: Annotated[int, Field(ge=50, le=1_000_000)] = 250
+    margin_us: Annotated[int, Field(ge=0, le=1_000)] = 60
+    cpu: Annotated[int, Field(ge=0)] | None = None  # the processor that the loop keeps to itself
+
+    @property
+    def database_address(self) -> str:
+        """The URL of the database."""
+        return self.database_url or f"sqlite:///{self.data_dir.resolve() / 'forcerig.sqlite'}"
+
+    @property
+    def runs_dir(self) -> Path:
+        """Where the samples of the runs are kept, a folder a run."""
+        return self.data_dir.resolve() / "runs"

@@ -1,0 +1,102 @@
+"""The parts of a running console and how they hang together: made at the start, ended in order."""
+
+import logging
+from concurrent.futures import ThreadPoolExecutor
+
+from app.controller.record import to_record as gains_record
+from app.controller.settings import ControllerSettings
+from app.db import Database
+from app.interlocks.defaults import default_interlocks
+from app.interlocks.record import to_record as interlocks_record
+from app.link.link import Link
+from app.link.paths import block_path
+from app.link.process import LoopCommand
+from app.live.broadcaster import Broadcaster
+from app.recording.clerk import Clerk
+from app.recording.recorder import Recorder
+from app.recording.recovery import close_orphans, sweep
+from app.rigs.service import Rig
+from app.rigs.status import StatusReader
+from app.runs.ledger import Ledger
+from app.runs.plans import Plans
+from app.runs.service import Runs
+from app.runs.starting import Frozen, Starter
+from app.settings import Settings
+from rtcore.codes import Opcode
+from rtcore.rig.parameters import load_rig
+
+_log = logging.getLogger(__name__)
+
+
+class Console:
+    """Everything that a request may need."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.settings = settings
+        self._gains, self._interlocks = ControllerSettings(), default_interlocks()
+        rig = load_rig(settings.rig_file)
+        frozen = Frozen(
+            controller=self._gains.model_dump(mode="json"),
+            interlocks=self._interlocks.model_dump(mode="json"),
+            rig=rig.model_dump(mode="json"),
+        )
+        self.database = Database(settings.database_address)
+        self._clerk = Clerk(settings.runs_dir, Ledger(self.database, self._runs_changed))
+        self.recorder = Recorder(settings.runs_dir, self._clerk)
+        block = block_path(settings.data_dir)
+        self.link = Link(LoopCommand.of(settings, block), self.recorder.follow, self._configure)
+        plans = Plans()
+        self._plans = plans
+        self.status = StatusReader(self.link, self.recorder, plans, rig.supply.high_pa)
+        self.rig = Rig(self.link, lambda: self.status.read().commands)
+        self.runs = Runs(self.database, settings.runs_dir)
+        self.starter = Starter(
+            self.database, self.link, self.recorder, frozen, plans, self.rig.why_not_start
+        )
+        self.broadcaster = Broadcaster(lambda: self.link.life, self.status.read)
+        self.command_threads = ThreadPoolExecutor(8, thread_name_prefix="commands")
+
+    def period_s(self) -> float:
+        """The period of the loop."""
+        return self.settings.period_us * 1e-6
+
+    def open(self) -> None:
+        """Migrate, attach to the loop or start one, go on with what was being recorded.
+
+        Raises `BlockError` where a loop of another version runs.
+        """
+        self.settings.runs_dir.mkdir(parents=True, exist_ok=True)
+        self.database.upgrade()
+        self._plans.recall(self.database)
+        self.link.start()
+        life = self.link.life
+        self._clerk.start()
+        sweep(self.settings.runs_dir, self._clerk)
+        close_orphans(self.settings.runs_dir, self._clerk, life.name if life else None)
+        self.recorder.start()
+
+    def close(self) -> None:
+        """Take the load off, depressurise, end the loop, write down what was recorded."""
+        self.link.take_load_off()
+        self.link.end_loop()
+        self.recorder.stop()
+        self._clerk.stop()
+        self.link.forget()
+        self.command_threads.shutdown()
+        self.database.close()
+
+    def _runs_changed(self) -> None:
+        self.broadcaster.runs_changed()
+
+    def _configure(self, link: Link) -> bool:
+        """Give a loop that has just started its gains and interlocks."""
+        banks = (
+            (Opcode.ADOPT_GAINS, gains_record(self._gains)),
+            (Opcode.ADOPT_INTERLOCKS, interlocks_record(self._interlocks, self.period_s())),
+        )
+        for opcode, record in banks:
+            refusal = link.adopt(opcode, record)
+            if refusal is not None:
+                _log.warning("%s", refusal.detail)
+                return False
+        return True

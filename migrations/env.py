@@ -1,0 +1,14 @@
+"""Runs the migrations on the connection that the app gives, in its one transaction."""
+
+from alembic import context
+
+import app.runs.models  # noqa: F401  (so that its tables are known)
+from app.db import Base
+
+context.configure(
+    connection=context.config.attributes["connection"],
+    target_metadata=Base.metadata,
+    render_as_batch=True,
+)
+with context.begin_transaction():
+    context.run_migrations()
