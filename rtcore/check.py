@@ -7,11 +7,6 @@ from rtcore.compiled import Record, kernel
 from rtcore.interlocks import NO_ACTION, Quantity, check_detector
 from rtcore.memory.rings import publish_event
 
-_FORCE, _ERROR = int(Quantity.FORCE_N), int(Quantity.FORCE_ERROR_N)
-_DISPLACEMENT, _VELOCITY = int(Quantity.DISPLACEMENT_M), int(Quantity.VELOCITY_M_S)
-_SUPPLY, _FAULTS = int(Quantity.SUPPLY_PRESSURE_PA), int(Quantity.SENSOR_FAULTS)
-_SILENCE, _MISSED = int(Quantity.APP_SILENCE_S), int(Quantity.DEADLINES_MISSED)
-_TRIP = int(EventKind.TRIP)
 _ONE = np.uint64(1)
 
 
@@ -19,14 +14,14 @@ _ONE = np.uint64(1)
 def collect_quantities(core: Record, silence_s: float, missed: int) -> None:
     """Gather what the detectors watch."""
     q = core.quantities
-    q[_FORCE] = core.sample.force_n
-    q[_ERROR] = core.force.value - core.sample.force_n
-    q[_DISPLACEMENT] = core.sample.displacement_m
-    q[_VELOCITY] = core.sample.velocity_m_s
-    q[_SUPPLY] = core.inputs.supply_pressure_pa
-    q[_FAULTS] = core.sample.faults
-    q[_SILENCE] = silence_s
-    q[_MISSED] = missed
+    q[Quantity.FORCE_N] = core.sample.force_n
+    q[Quantity.FORCE_ERROR_N] = core.force.value - core.sample.force_n
+    q[Quantity.DISPLACEMENT_M] = core.sample.displacement_m
+    q[Quantity.VELOCITY_M_S] = core.sample.velocity_m_s
+    q[Quantity.SUPPLY_PRESSURE_PA] = core.inputs.supply_pressure_pa
+    q[Quantity.SENSOR_FAULTS] = core.sample.faults
+    q[Quantity.APP_SILENCE_S] = silence_s
+    q[Quantity.DEADLINES_MISSED] = missed
 
 
 @kernel
@@ -48,6 +43,6 @@ def check_detectors(table: Record, core: Record, block: Record, block_address: i
         core.trips |= bit
         if block.first_out < 0:
             block.first_out = i
-        publish_event(block_address, core.tick, _TRIP, i, value, detector.threshold)
+        publish_event(block_address, core.tick, EventKind.TRIP, i, value, detector.threshold)
         strongest = max(strongest, detector.action)
     return strongest

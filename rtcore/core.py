@@ -61,7 +61,7 @@ CORE = np.dtype(
         ("violated_ticks", "i8", (MAX_DETECTORS,)),
         ("trips", "u8"),
         ("violated", "u8"),  # detectors violated in this tick
-        ("event", "i8"),  # what the interlocks and the program ask of the mode, -1 for nothing
+        ("last_reply", "i8"),
         ("trip_after_stop", "i8"),  # a controlled stop that ends latched
         ("program_ended", "i8"),
         ("force", GENERATOR),
@@ -105,7 +105,6 @@ def make_core(period_s: float, settings: dict[str, float]) -> npt.NDArray[Any]:
     for name, value in (defaults | settings).items():
         core["settings"][name] = value
     core["mode"] = Mode.TRIPPED
-    core["event"] = -1
     core["force"]["block"] = -1
     core["motion"]["block"] = -1
     return cores

@@ -63,16 +63,15 @@ def armed_in(*modes: Mode) -> int:
 
 
 _QUANTITIES, _COMPARISONS, _ACTIONS = len(Quantity), len(Comparison), len(Action)
-_ABOVE, _BELOW = int(Comparison.ABOVE), int(Comparison.BELOW)
 NO_ACTION = -1
 
 
 @kernel
 def is_violated(detector: Record, value: float) -> bool:
     """Written so that a NaN, on either side, is a violation."""
-    if detector.comparison == _ABOVE:
+    if detector.comparison == Comparison.ABOVE:
         return not (value <= detector.threshold)
-    if detector.comparison == _BELOW:
+    if detector.comparison == Comparison.BELOW:
         return not (value >= detector.threshold)
     return not (abs(value) <= detector.threshold)
 

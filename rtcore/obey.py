@@ -14,45 +14,6 @@ from rtcore.modes import Event, Mode, is_run
 from rtcore.program.validate import segment_is_valid, table_is_bounded
 from rtcore.supervise import apply_event, clear_trips, start_run
 
-_COMMAND = int(EventKind.COMMAND)
-_RESET, _TARE, _START, _STOP, _SHUTDOWN = (
-    int(Opcode.RESET),
-    int(Opcode.TARE),
-    int(Opcode.START),
-    int(Opcode.STOP),
-    int(Opcode.SHUTDOWN),
-)
-_PRESSURISE, _DEPRESSURISE = int(Opcode.PRESSURISE), int(Opcode.DEPRESSURISE)
-_HOLD, _RESUME = int(Opcode.HOLD), int(Opcode.RESUME)
-_ADOPT_GAINS, _ADOPT_INTERLOCKS, _ADOPT_PROGRAM = (
-    int(Opcode.ADOPT_GAINS),
-    int(Opcode.ADOPT_INTERLOCKS),
-    int(Opcode.ADOPT_PROGRAM),
-)
-(
-    _ACCEPTED,
-    _WRONG_MODE,
-    _STALE,
-    _EXPIRED,
-    _REPLAYED,
-    _UNKNOWN,
-    _CAUSE,
-    _INVALID,
-    _NO_PROGRAM,
-    _BUSY,
-) = (
-    int(Reply.ACCEPTED),
-    int(Reply.WRONG_MODE),
-    int(Reply.STALE_LEASE),
-    int(Reply.EXPIRED),
-    int(Reply.REPLAYED),
-    int(Reply.UNKNOWN),
-    int(Reply.CAUSE_PRESENT),
-    int(Reply.INVALID_BANK),
-    int(Reply.NO_PROGRAM),
-    int(Reply.BUSY),
-)
-_EVENT_RESET = int(Event.RESET)
 # The event of the mode that a command is, by opcode; -1 for those that are none.
 _EVENT_OF = np.full(len(Opcode) + 1, -1)
 for _opcode, _event in (
@@ -65,53 +26,52 @@ for _opcode, _event in (
     (Opcode.SHUTDOWN, Event.TRIP),
 ):
     _EVENT_OF[_opcode] = _event
-_MODE_TRIPPED, _MODE_OFF = int(Mode.TRIPPED), int(Mode.OFF)
 SEGMENTS_A_TICK = 32
 
 
 @kernel
 def _done(happened: bool) -> int:
-    return _ACCEPTED if happened else _WRONG_MODE
+    return Reply.ACCEPTED if happened else Reply.WRONG_MODE
 
 
 @kernel
 def _reset(core: Record, block: Record, block_address: int) -> int:
     """Clear what is latched, where its cause is gone. Starts nothing."""
     if core.violated != 0:
-        return _CAUSE
-    if core.mode == _MODE_TRIPPED:
-        apply_event(core, block_address, _EVENT_RESET)
+        return Reply.CAUSE_PRESENT
+    if core.mode == Mode.TRIPPED:
+        apply_event(core, block_address, Event.RESET)
     clear_trips(core, block)
-    return _ACCEPTED
+    return Reply.ACCEPTED
 
 
 @kernel
 def _tare(core: Record) -> int:
     """Make the mean of the unloaded load cell the new zero."""
-    if core.mode != _MODE_OFF or core.outputs.supply != SUPPLY_OFF:
-        return _WRONG_MODE
+    if core.mode != Mode.OFF or core.outputs.supply != SUPPLY_OFF:
+        return Reply.WRONG_MODE
     core.sample.tare_n = core.sample.untared_mean_n
-    return _ACCEPTED
+    return Reply.ACCEPTED
 
 
 @kernel
 def _adopt_small(core: Record, block: Record, opcode: int, bank: int) -> int:
     """Gains and interlocks: checked and adopted within this tick, whole or not at all."""
     if not 0 <= bank <= 1:
-        return _INVALID
+        return Reply.INVALID_BANK
     if is_run(core.mode):
-        return _WRONG_MODE
-    if opcode == _ADOPT_GAINS:
+        return Reply.WRONG_MODE
+    if opcode == Opcode.ADOPT_GAINS:
         if not gains_are_valid(block.gains[bank]):
-            return _INVALID
+            return Reply.INVALID_BANK
         block.active_gains = bank
         adopt_gains(block.gains[bank], core.law, core.settings.period_s)
-        return _ACCEPTED
+        return Reply.ACCEPTED
     if not interlocks_are_valid(block.interlocks[bank]):
-        return _INVALID
+        return Reply.INVALID_BANK
     block.active_interlocks = bank
     core.violated_ticks[:] = 0
-    return _ACCEPTED
+    return Reply.ACCEPTED
 
 
 @kernel
@@ -128,12 +88,12 @@ def _check_next_segments(core: Record, table: Record, first: int, limit: float) 
 def _adopt_program(core: Record, block: Record, bank: int) -> int:
     """Check a few segments each tick, adopt when all are good. BUSY meanwhile."""
     if not 0 <= bank <= 1 or (bank == block.active_program and core.has_program != 0):
-        return _INVALID
+        return Reply.INVALID_BANK
     if is_run(core.mode):
-        return _WRONG_MODE
+        return Reply.WRONG_MODE
     program = block.programs[bank]
     if not (table_is_bounded(program.force) and table_is_bounded(program.motion)):
-        return _INVALID
+        return Reply.INVALID_BANK
     checked = core.checked_segments
     forces = program.force.count
     if checked < forces:
@@ -145,33 +105,33 @@ def _adopt_program(core: Record, block: Record, bank: int) -> int:
         checked = checked + forces if checked >= 0 else checked
     if checked < 0:
         core.checked_segments = 0
-        return _INVALID
+        return Reply.INVALID_BANK
     core.checked_segments = checked
     if checked < forces + program.motion.count:
-        return _BUSY
+        return Reply.BUSY
     core.checked_segments = 0
     block.active_program = bank
     core.has_program = 1
-    return _ACCEPTED
+    return Reply.ACCEPTED
 
 
 @kernel
 def _carry_out(core: Record, block: Record, block_address: int, opcode: int, argument: int) -> int:
-    if opcode in (_ADOPT_GAINS, _ADOPT_INTERLOCKS):
+    if opcode in (Opcode.ADOPT_GAINS, Opcode.ADOPT_INTERLOCKS):
         return _adopt_small(core, block, opcode, argument)
-    if opcode == _ADOPT_PROGRAM:
+    if opcode == Opcode.ADOPT_PROGRAM:
         return _adopt_program(core, block, argument)
-    if opcode == _RESET:
+    if opcode == Opcode.RESET:
         return _reset(core, block, block_address)
-    if opcode == _TARE:
+    if opcode == Opcode.TARE:
         return _tare(core)
     if not 0 <= opcode < len(_EVENT_OF) or _EVENT_OF[opcode] < 0:
-        return _UNKNOWN
-    if core.trips != 0 and opcode in (_PRESSURISE, _START, _RESUME):
-        return _CAUSE
-    if opcode == _START:
+        return Reply.UNKNOWN
+    if core.trips != 0 and opcode in (Opcode.PRESSURISE, Opcode.START, Opcode.RESUME):
+        return Reply.CAUSE_PRESENT
+    if opcode == Opcode.START:
         if core.has_program == 0:
-            return _NO_PROGRAM
+            return Reply.NO_PROGRAM
         program = block.programs[block.active_program]
         return _done(start_run(core, program, block_address, _EVENT_OF[opcode], argument))
     return _done(apply_event(core, block_address, _EVENT_OF[opcode]))
@@ -183,24 +143,25 @@ def take_command(core: Record, block: Record, block_address: int, now_ns: int) -
     if not pending(block_address):
         return
     command = block.commands[core.commands_seen % COMMAND_SLOTS]
-    stops = command.opcode == _STOP or command.opcode == _SHUTDOWN
+    stops = command.opcode == Opcode.STOP or command.opcode == Opcode.SHUTDOWN
     if command.sequence != core.commands_seen:
-        reply = _REPLAYED
+        reply = Reply.REPLAYED
     elif now_ns > command.expires_ns and not stops and core.checked_segments == 0:
-        reply = _EXPIRED
+        reply = Reply.EXPIRED
     elif command.lease < core.lease and not stops:
-        reply = _STALE
+        reply = Reply.STALE_LEASE
     else:
         core.lease = max(core.lease, command.lease)
         reply = _carry_out(core, block, block_address, command.opcode, command.argument)
-    if reply != _BUSY:
+    if reply != Reply.BUSY:
         core.commands_seen += 1
+        core.last_reply = reply
         publish_event(
             block_address,
             core.tick,
-            _COMMAND,
+            EventKind.COMMAND,
             command.opcode,
-            float(reply),
-            float(command.argument),
+            core.last_reply,
+            command.argument,
         )
         acknowledge(block_address, reply, core.tick)

@@ -10,26 +10,6 @@ from rtcore.memory.rings import publish_event
 from rtcore.modes import NO_TRANSITION, Event, Mode, is_pressurised, is_run, next_mode
 from rtcore.program.generator import rest, start
 
-_MODE, _ENDED = int(EventKind.MODE), int(EventKind.PROGRAM_ENDED)
-_STOP_ACTION, _SHUTDOWN_ACTION, _HOLD_ACTION = (
-    int(Action.STOP),
-    int(Action.SHUTDOWN),
-    int(Action.HOLD),
-)
-_TRIPPED, _OFF, _PRESSURISING, _READY = (
-    int(Mode.TRIPPED),
-    int(Mode.OFF),
-    int(Mode.PRESSURISING),
-    int(Mode.READY),
-)
-_RUNNING, _HOLDING, _STOPPING = int(Mode.RUNNING), int(Mode.HOLDING), int(Mode.STOPPING)
-_TRIP, _STOP, _HOLD, _STOPPED = (
-    int(Event.TRIP),
-    int(Event.STOP),
-    int(Event.HOLD),
-    int(Event.STOPPED),
-)
-_PRESSURE_REACHED = int(Event.PRESSURE_REACHED)
 RUN_TAIL_S = 0.5  # a run that trips is recorded this much longer
 
 
@@ -40,7 +20,7 @@ def apply_event(core: Record, block_address: int, event: int) -> bool:
     if after == NO_TRANSITION:
         return False
     if after != core.mode:
-        publish_event(block_address, core.tick, _MODE, after, float(core.mode), float(event))
+        publish_event(block_address, core.tick, EventKind.MODE, after, core.mode, 0.0)
         core.mode = after
         core.mode_ticks = 0
     if not is_run(after):
@@ -48,7 +28,7 @@ def apply_event(core: Record, block_address: int, event: int) -> bool:
         core.force.block = -1
         core.force.cycle = 0
         core.trip_after_stop = 0
-        if after != _TRIPPED:
+        if after != Mode.TRIPPED:
             core.run = 0
     return True
 
@@ -68,13 +48,13 @@ def start_run(core: Record, program: Record, block_address: int, event: int, run
 @kernel
 def react(core: Record, block_address: int, action: int) -> None:
     """What the strongest detector that tripped in this tick demands."""
-    if action == _SHUTDOWN_ACTION or (action == _STOP_ACTION and not is_run(core.mode)):
-        apply_event(core, block_address, _TRIP)
-    elif action == _STOP_ACTION:
-        apply_event(core, block_address, _STOP)
+    if action == Action.SHUTDOWN or (action == Action.STOP and not is_run(core.mode)):
+        apply_event(core, block_address, Event.TRIP)
+    elif action == Action.STOP:
+        apply_event(core, block_address, Event.STOP)
         core.trip_after_stop = 1
-    elif action == _HOLD_ACTION:
-        apply_event(core, block_address, _HOLD)
+    elif action == Action.HOLD:
+        apply_event(core, block_address, Event.HOLD)
 
 
 @kernel
@@ -82,15 +62,15 @@ def progress(core: Record, block_address: int) -> None:
     """What follows from the state of the rig itself: pressure reached, program ended, load taken off."""
     core.mode_ticks += 1
     settings = core.settings
-    if core.mode == _PRESSURISING and core.inputs.supply_pressure_pa >= settings.ready_pa:
-        apply_event(core, block_address, _PRESSURE_REACHED)
-    elif core.mode == _RUNNING and core.force.ended != 0:
+    if core.mode == Mode.PRESSURISING and core.inputs.supply_pressure_pa >= settings.ready_pa:
+        apply_event(core, block_address, Event.PRESSURE_REACHED)
+    elif core.mode == Mode.RUNNING and core.force.ended != 0:
         core.program_ended = 1
-        publish_event(block_address, core.tick, _ENDED, core.run, 0.0, 0.0)
-        apply_event(core, block_address, _STOP)
-    elif core.mode == _STOPPING and core.force.stop_ticks >= settings.stop_fade_ticks:
-        apply_event(core, block_address, _TRIP if core.trip_after_stop != 0 else _STOPPED)
-    elif core.mode == _TRIPPED and core.mode_ticks * settings.period_s > RUN_TAIL_S:
+        publish_event(block_address, core.tick, EventKind.PROGRAM_ENDED, core.run, 0.0, 0.0)
+        apply_event(core, block_address, Event.STOP)
+    elif core.mode == Mode.STOPPING and core.force.stop_ticks >= settings.stop_fade_ticks:
+        apply_event(core, block_address, Event.TRIP if core.trip_after_stop != 0 else Event.STOPPED)
+    elif core.mode == Mode.TRIPPED and core.mode_ticks * settings.period_s > RUN_TAIL_S:
         core.run = 0
 
 
@@ -104,7 +84,7 @@ def wanted_supply(core: Record) -> int:
         core.inputs.supply_pressure_pa >= settings.low_reached_pa
         and core.mode_ticks >= settings.low_ticks
     )
-    if core.mode == _PRESSURISING and not filled and core.outputs.supply != SUPPLY_HIGH:
+    if core.mode == Mode.PRESSURISING and not filled and core.outputs.supply != SUPPLY_HIGH:
         return SUPPLY_LOW
     return SUPPLY_HIGH
 

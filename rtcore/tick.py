@@ -16,8 +16,6 @@ from rtcore.program.generator import generate, rest
 from rtcore.sample import take_sample
 from rtcore.supervise import progress, react, wanted_supply
 
-_BLOCK, _MISSED = int(EventKind.BLOCK), int(EventKind.DEADLINES_MISSED)
-_HOLDING, _STOPPING, _READY = int(Mode.HOLDING), int(Mode.STOPPING), int(Mode.READY)
 RETURN_M_S = 0.01  # at which the unit under test goes back to its middle when the rig is ready
 
 
@@ -39,7 +37,14 @@ def tick(
     settings = core.settings
     core.deadlines_missed += missed
     if missed > 0:
-        publish_event(block_address, core.tick, _MISSED, missed, float(wakeup_latency_ns), 0.0)
+        publish_event(
+            block_address,
+            core.tick,
+            EventKind.DEADLINES_MISSED,
+            missed,
+            wakeup_latency_ns,
+            0.0,
+        )
 
     # sample
     take_sample(settings, core.inputs, core.sample)
@@ -89,17 +94,17 @@ def set_points(core: Record, program: Record, block_address: int) -> None:
     """Force and motion commanded in this tick."""
     settings = core.settings
     if not is_run(core.mode):
-        if core.mode == _READY:
+        if core.mode == Mode.READY:
             step = RETURN_M_S * settings.period_s
             rest(core.motion, core.motion.value - min(max(core.motion.value, -step), step))
         return
     before = core.force.block
-    holding, stopping = core.mode == _HOLDING, core.mode == _STOPPING
+    holding, stopping = core.mode == Mode.HOLDING, core.mode == Mode.STOPPING
     hold, stop, period_s = settings.hold_fade_ticks, settings.stop_fade_ticks, settings.period_s
     generate(core.force, program.force, holding, stopping, hold, stop, period_s)
     generate(core.motion, program.motion, holding, stopping, hold, stop, period_s)
     if core.force.block != before:
-        publish_event(block_address, core.tick, _BLOCK, core.force.block, float(core.run), 0.0)
+        publish_event(block_address, core.tick, EventKind.BLOCK, core.force.block, core.run, 0.0)
 
 
 @kernel

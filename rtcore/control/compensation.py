@@ -35,7 +35,6 @@ COMPENSATION = np.dtype(
     align=True,
 )
 
-_EXCLUDED, _WITH_NOTCH = int(Branch.EXCLUDED), int(Branch.WITH_NOTCH)
 LOWEST_NOTCH_HZ = 0.1
 
 
@@ -77,9 +76,9 @@ def compensation_step(
         comp.notch_hz = load_hz
     step = period_s / gains.fade_s
     comp.branch_share = _faded(
-        comp.branch_share, gains.compensate != 0 and branch != _EXCLUDED, step
+        comp.branch_share, gains.compensate != 0 and branch != Branch.EXCLUDED, step
     )
-    comp.notch_share = _faded(comp.notch_share, branch == _WITH_NOTCH, step)
+    comp.notch_share = _faded(comp.notch_share, branch == Branch.WITH_NOTCH, step)
 
     smooth = filter_step(comp.low_pass, filter_step(comp.lead, velocity_m_s))
     notched = filter_step(comp.notch, smooth)

@@ -45,9 +45,6 @@ GENERATOR = np.dtype(
 )
 
 MOST_SEGMENTS_A_TICK = 64  # a table whose segments take no time cannot keep the tick
-_END, _HOLD, _LINEAR = int(Segment.END), int(Segment.HOLD), int(Segment.LINEAR)
-_SMOOTH, _HARMONIC, _REPEAT = int(Segment.SMOOTH), int(Segment.HARMONIC), int(Segment.REPEAT)
-_EXCLUDED = int(Branch.EXCLUDED)
 
 
 @kernel
@@ -78,7 +75,7 @@ def rest(g: Record, value: float) -> None:
     g.amplitude = 0.0
     g.frequency_hz = 0.0
     g.from_phase = 0.0
-    g.branch = _EXCLUDED
+    g.branch = Branch.EXCLUDED
 
 
 @kernel
@@ -102,9 +99,9 @@ def _enter(g: Record, s: Record, period_s: float) -> None:
         g.cycle = 0
         g.block = s.block
     g.branch = s.branch
-    if s.kind == _LINEAR and s.ticks == 0:
-        g.ticks = int(math.ceil(abs(s.target - g.value) / (s.rate_per_s * period_s) - 1e-9))
-    if s.kind == _HARMONIC:
+    if s.kind == Segment.LINEAR and s.ticks == 0:
+        g.ticks = math.ceil(abs(s.target - g.value) / (s.rate_per_s * period_s) - 1e-9)
+    if s.kind == Segment.HARMONIC:
         if s.continues != 0:
             g.from_mean = g.mean
             g.from_amplitude = g.amplitude
@@ -120,7 +117,7 @@ def _enter(g: Record, s: Record, period_s: float) -> None:
 def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
     """Set mean, amplitude, frequency and value at a tick of the segment."""
     share = tick / g.ticks if g.ticks > 0 else 1.0
-    if s.kind == _HARMONIC:
+    if s.kind == Segment.HARMONIC:
         blend = 1.0 - fade(tick, g.ticks)
         g.mean = g.from_mean + blend * (s.mean_to - g.from_mean)
         g.amplitude = g.from_amplitude + blend * (s.amplitude_to - g.from_amplitude)
@@ -129,9 +126,9 @@ def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
         g.value = g.mean + g.amplitude * math.sin(2.0 * math.pi * (phase - math.floor(phase)))
         return
     target = s.target
-    if s.kind == _HOLD or s.kind == _END:
+    if s.kind == Segment.HOLD or s.kind == Segment.END:
         rest(g, g.from_value if math.isnan(target) else target)
-    elif s.kind == _LINEAR:
+    elif s.kind == Segment.LINEAR:
         rest(g, g.from_value + share * (target - g.from_value))
     else:
         blend = 1.0 - fade(tick, g.ticks) if g.ticks > 0 else 1.0
@@ -143,10 +140,10 @@ def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
 def _leave(g: Record, s: Record, period_s: float) -> None:
     """Set what the segment leaves behind: its value, phase and cycles at its last instant."""
     _evaluate(g, s, g.ticks, period_s)
-    if s.kind == _HARMONIC:
+    if s.kind == Segment.HARMONIC:
         phase = _phase(g, s, g.ticks, period_s)
         if s.counts != 0:
-            g.cycles_before += int(math.floor(phase - g.from_phase + 0.5))
+            g.cycles_before += math.floor(phase - g.from_phase + 0.5)
         g.from_phase = phase - math.floor(phase)
 
 
@@ -172,10 +169,10 @@ def _settle(g: Record, table: Record, period_s: float) -> None:
     """Go on to the segment that this tick belongs to."""
     for _ in range(MOST_SEGMENTS_A_TICK):
         s = table.segments[g.segment]
-        if s.kind == _END:
+        if s.kind == Segment.END:
             g.ended = 1
             return
-        if s.kind == _REPEAT:
+        if s.kind == Segment.REPEAT:
             g.segment = _after_repeat(g, s)
         elif g.tick >= g.ticks:
             _leave(g, s, period_s)
@@ -212,8 +209,8 @@ def generate(
     s = table.segments[g.segment]
     _evaluate(g, s, g.tick, period_s)
     g.cycle = g.cycles_before
-    if s.kind == _HARMONIC and s.counts != 0:
-        g.cycle += int(math.floor(g.from_frequency_hz * g.tick * period_s + 1e-9))
+    if s.kind == Segment.HARMONIC and s.counts != 0:
+        g.cycle += math.floor(g.from_frequency_hz * g.tick * period_s + 1e-9)
     if g.hold_ticks > 0:
         g.value = g.mean + (g.value - g.mean) * fade(g.hold_ticks, hold_fade_ticks)
     if g.stop_ticks > 0:

@@ -5,20 +5,13 @@ import math
 from rtcore.compiled import Record, kernel
 from rtcore.program.segments import MAX_SEGMENTS, Segment
 
-_END, _LINEAR, _HARMONIC, _REPEAT = (
-    int(Segment.END),
-    int(Segment.LINEAR),
-    int(Segment.HARMONIC),
-    int(Segment.REPEAT),
-)
-
 
 @kernel
 def table_is_bounded(table: Record) -> bool:
     """Whether a table has an END within its count, which is within the bank."""
     if table.count < 1 or table.count > MAX_SEGMENTS:
         return False
-    return table.segments[table.count - 1].kind == _END
+    return table.segments[table.count - 1].kind == Segment.END
 
 
 @kernel
@@ -29,11 +22,11 @@ def _within(value: float, limit: float) -> bool:
 @kernel
 def segment_is_valid(s: Record, index: int, limit: float, frequency_limit_hz: float) -> bool:
     """Whether one segment keeps within the limits (N or m, Hz) and jumps only backwards."""
-    if s.kind < _END or s.kind > _REPEAT or s.ticks < 0:
+    if s.kind < Segment.END or s.kind > Segment.REPEAT or s.ticks < 0:
         return False
-    if s.kind == _REPEAT:
+    if s.kind == Segment.REPEAT:
         return 0 <= s.jump < index and s.times >= 1
-    if s.kind == _HARMONIC:
+    if s.kind == Segment.HARMONIC:
         if s.ticks < 1 or not (0.0 < s.frequency_to_hz < frequency_limit_hz):
             return False
         if not _within(abs(s.mean_to) + abs(s.amplitude_to), limit):
@@ -43,7 +36,7 @@ def segment_is_valid(s: Record, index: int, limit: float, frequency_limit_hz: fl
         mean = 0.0 if math.isnan(s.mean_from) else s.mean_from
         started = 0.0 < s.frequency_from_hz < frequency_limit_hz and math.isfinite(s.phase_cycles)
         return started and _within(abs(mean) + abs(s.amplitude_from), limit)
-    if s.kind == _LINEAR and s.ticks == 0 and not (s.rate_per_s > 0.0):
+    if s.kind == Segment.LINEAR and s.ticks == 0 and not (s.rate_per_s > 0.0):
         return False
-    keeps = s.kind != _LINEAR and math.isnan(s.target)
+    keeps = s.kind != Segment.LINEAR and math.isnan(s.target)
     return keeps or _within(s.target, limit)
