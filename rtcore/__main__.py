@@ -14,7 +14,7 @@ from rtcore.io.simulated import SimulatedIo
 from rtcore.loop import account, keep_time, warm_up
 from rtcore.memory.segment import Block, BlockError, create_block, lock_single_loop
 from rtcore.realtime import PRIORITY, as_json, take_all
-from rtcore.rig.parameters import load_rig
+from rtcore.rig.parameters import RigParameters, load_rig
 
 log = logging.getLogger("rtcore")
 
@@ -47,7 +47,7 @@ def run(options: argparse.Namespace) -> None:
     for number in (signal.SIGTERM, signal.SIGINT):
         signal.signal(number, lambda *_: running.clear())
     with lock_single_loop(options.block):
-        rig = load_rig(options.rig)
+        rig = read_rig(options.rig)
         period_ns = options.period_us * 1000
         # Whoever attaches is to see a living loop: the block takes its place when all is warm.
         staged = options.block.with_name(f".{options.block.name}.staged")
@@ -78,6 +78,14 @@ def run(options: argparse.Namespace) -> None:
         log.info("ended after %d ticks", block.fields["telemetry_published"])
 
 
+def read_rig(path: Path | None) -> RigParameters:
+    """The rig of a file, or the shipped one. Raises `OSError`, or `ValueError` that names the file."""
+    try:
+        return load_rig(path)
+    except (ValueError, yaml.YAMLError) as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
 def take_conditions(block: Block, options: argparse.Namespace) -> None:
     """Take the real-time conditions, and tell what was had in the log and the block."""
     conditions = take_all(options.cpu, options.priority)
@@ -102,7 +110,7 @@ def main() -> int:
     )
     try:
         run(options)
-    except (BlockError, OSError, ValueError, yaml.YAMLError) as error:
+    except (BlockError, OSError, ValueError) as error:
         print("rtcore:", " ".join(str(error).split()), file=sys.stderr)
         return 2
     return 0
