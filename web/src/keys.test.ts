@@ -1,0 +1,52 @@
+import { describe, expect, it } from "vitest";
+import { actionOf, takesText, VIEW_KEYS, type Press } from "./keys";
+import { COMMANDS } from "./live/operate";
+import { routeOf } from "./router";
+
+const press = (key: string, change: Partial<Press> = {}): ReturnType<typeof actionOf> =>
+  actionOf({ key, repeat: false, modified: false, typing: false, singleKeys: true, ...change });
+
+describe("actionOf", () => {
+  it("stops on Escape, from anywhere but a text field, where it first leaves the field", () => {
+    expect(press("Escape")).toEqual({ kind: "stop" });
+    expect(press("Escape", { singleKeys: false })).toEqual({ kind: "stop" });
+    expect(press("Escape", { typing: true })).toEqual({ kind: "leave-field" });
+  });
+
+  it("gives commands on single keys", () => {
+    expect(press("r")).toEqual({ kind: "command", command: "reset" });
+    expect(press("P")).toEqual({ kind: "command", command: "pressurise" });
+    expect(press("?")).toEqual({ kind: "help" });
+  });
+
+  it("gives none while typing, while held down, with a modifier, or when turned off", () => {
+    for (const change of [{ typing: true }, { repeat: true }, { modified: true }, { singleKeys: false }]) {
+      for (const { key } of [...COMMANDS, ...VIEW_KEYS]) expect(press(key, change)).toBeNull();
+    }
+  });
+
+  it("has each key once", () => {
+    const keys = [...COMMANDS, ...VIEW_KEYS].map(({ key }) => key);
+    expect(new Set(keys).size).toBe(keys.length);
+  });
+});
+
+describe("takesText", () => {
+  it("tells text fields from buttons and boxes", () => {
+    expect(takesText({ tagName: "INPUT", type: "text" })).toBe(true);
+    expect(takesText({ tagName: "TEXTAREA" })).toBe(true);
+    expect(takesText({ tagName: "INPUT", type: "radio" })).toBe(false);
+    expect(takesText({ tagName: "BUTTON", type: "submit" })).toBe(false);
+    expect(takesText(null)).toBe(false);
+  });
+});
+
+describe("routeOf", () => {
+  it("reads addresses, and falls back to Operate", () => {
+    expect(routeOf("#/runs")).toEqual({ page: "runs" });
+    expect(routeOf("#/runs/12")).toEqual({ page: "run", id: 12 });
+    expect(routeOf("#/runs/none")).toEqual({ page: "runs" });
+    for (const hash of ["", "#", "#/", "#/operate", "#/nonsense"])
+      expect(routeOf(hash)).toEqual({ page: "operate" });
+  });
+});

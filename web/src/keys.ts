@@ -1,0 +1,75 @@
+// Which key does what. Pure: the page says where the focus is.
+
+import { COMMANDS } from "./live/operate";
+import type { Command } from "./live/types";
+
+export type KeyAction =
+  | { readonly kind: "stop" }
+  | { readonly kind: "leave-field" }
+  | { readonly kind: "command"; readonly command: Exclude<Command, "stop"> }
+  | { readonly kind: "help" | "acknowledge" | "pause" | "shorter" | "longer" | "operate" | "runs" | "theme" };
+
+export interface KeyInfo {
+  readonly key: string;
+  readonly does: string;
+  readonly action: KeyAction;
+}
+
+/** Keys of the view. Those of commands are in `COMMANDS`. */
+export const VIEW_KEYS: readonly KeyInfo[] = [
+  { key: "a", does: "Acknowledge trips", action: { kind: "acknowledge" } },
+  { key: "f", does: "Freeze or run the charts", action: { kind: "pause" } },
+  { key: "[", does: "Shorter chart window", action: { kind: "shorter" } },
+  { key: "]", does: "Longer chart window", action: { kind: "longer" } },
+  { key: "1", does: "Operate", action: { kind: "operate" } },
+  { key: "2", does: "Runs", action: { kind: "runs" } },
+  { key: "t", does: "Theme: auto, light, dark", action: { kind: "theme" } },
+  { key: "?", does: "Show or hide these keys", action: { kind: "help" } },
+];
+
+const SINGLE: ReadonlyMap<string, KeyAction> = new Map([
+  ...VIEW_KEYS.map(({ key, action }) => [key, action] as const),
+  ...COMMANDS.map(({ key, command }) => [key, { kind: "command", command } as KeyAction] as const),
+]);
+
+export interface Press {
+  readonly key: string;
+  readonly repeat: boolean;
+  /** Control, Alt or Meta is down: the key belongs to the browser. */
+  readonly modified: boolean;
+  /** The focus is where text is typed. */
+  readonly typing: boolean;
+  /** Single keys can be turned off (WCAG 2.1.4); Escape cannot. */
+  readonly singleKeys: boolean;
+}
+
+/** What a key press means; null where it means nothing here. */
+export function actionOf({ key, repeat, modified, typing, singleKeys }: Press): KeyAction | null {
+  if (repeat || modified) return null;
+  if (key === "Escape") return typing ? { kind: "leave-field" } : { kind: "stop" };
+  if (typing || !singleKeys) return null;
+  return SINGLE.get(key.length === 1 ? key.toLowerCase() : key) ?? null;
+}
+
+const TEXT_INPUTS = new Set([
+  "text",
+  "search",
+  "number",
+  "email",
+  "password",
+  "tel",
+  "url",
+  "date",
+  "time",
+  "datetime-local",
+]);
+
+/** Whether typing goes into this element. A ticked box or a radio button is no text field. */
+export function takesText(
+  element: { tagName: string; type?: string; isContentEditable?: boolean } | null,
+): boolean {
+  if (element === null) return false;
+  if (element.isContentEditable || element.tagName === "TEXTAREA" || element.tagName === "SELECT")
+    return true;
+  return element.tagName === "INPUT" && TEXT_INPUTS.has(element.type ?? "text");
+}

@@ -1,0 +1,84 @@
+// Requests to /api/v1. Refusals are RFC 9457 problem documents; every failure becomes a `Problem` with a sentence.
+
+import type { RigCommand, RigEvent, Run, RunPage, RunSamples, TestSummary } from "./types";
+
+export class Problem extends Error {
+  constructor(
+    readonly detail: string,
+    readonly code: string,
+    readonly status: number | null,
+  ) {
+    super(detail);
+  }
+}
+
+const NO_ANSWER = "The server does not answer.";
+
+async function request<T>(path: string, options: RequestInit = {}): Promise<T> {
+  let response: Response;
+  try {
+    response = await fetch(`/api/v1/${path}`, { headers: { Accept: "application/json" }, ...options });
+  } catch (error) {
+    if (error instanceof DOMException && error.name === "AbortError") throw error;
+    throw new Problem(NO_ANSWER, "no_answer", null);
+  }
+  if (!response.ok) throw await problem(response);
+  return (response.status === 204 ? undefined : await response.json()) as T;
+}
+
+async function problem(response: Response): Promise<Problem> {
+  const body = (await response.json().catch(() => ({}))) as {
+    detail?: unknown;
+    title?: unknown;
+    code?: unknown;
+  };
+  const sentence = [body.detail, body.title].find((text) => typeof text === "string" && text !== "");
+  return new Problem(
+    (sentence as string | undefined) ?? `The server refused (${response.status} ${response.statusText}).`,
+    typeof body.code === "string" ? body.code : `http_${response.status}`,
+    response.status,
+  );
+}
+
+const post = (body: unknown): RequestInit => ({
+  method: "POST",
+  headers: { "Content-Type": "application/json", Accept: "application/json" },
+  body: JSON.stringify(body),
+});
+
+export const listTests = (): Promise<TestSummary[]> => request("tests");
+
+export const startRun = (test_id: number): Promise<Run> => request("runs", post({ test_id }));
+
+export const sendCommand = (command: RigCommand, options: RequestInit = {}): Promise<unknown> =>
+  request("rig/commands", { ...post({ command }), ...options });
+
+export const listRuns = (before: number | null, limit = 50): Promise<RunPage> =>
+  request(`runs?limit=${limit}${before === null ? "" : `&before=${before}`}`);
+
+export const getRun = (id: number): Promise<Run> => request(`runs/${id}`);
+
+export async function listRunEvents(id: number): Promise<RigEvent[]> {
+  const answer = await request<RigEvent[] | { events: RigEvent[] }>(`runs/${id}/events`);
+  return Array.isArray(answer) ? answer : answer.events;
+}
+
+/** The samples of a run between two times, as extremes of at most `points` columns, or single ticks where they fit. */
+export function runSamples(
+  id: number,
+  channels: readonly string[],
+  from_s: number,
+  to_s: number,
+  points: number,
+  signal: AbortSignal,
+): Promise<RunSamples> {
+  const query = new URLSearchParams({
+    channels: channels.join(","),
+    from_s: String(from_s),
+    to_s: String(to_s),
+    points: String(points),
+  });
+  return request(`runs/${id}/samples?${query}`, { signal });
+}
+
+export const runDataUrl = (id: number): string => `/api/v1/runs/${id}/data.parquet`;

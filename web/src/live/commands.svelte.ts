@@ -1,0 +1,82 @@
+// Giving commands. A refusal becomes a message; a Stop that was not delivered is said loudly.
+
+import { Problem, sendCommand, startRun } from "./api";
+import { COMMANDS, refusal } from "./operate";
+import { messages, textOf } from "./messages.svelte";
+import { rig } from "./rig.svelte";
+import { tests } from "./tests.svelte";
+import type { Command } from "./types";
+
+const TOPIC = "command";
+const STOP_TRIES = 3;
+const STOP_WAIT_MS = 1500;
+const STOP_SHOWN_MS = 4000;
+
+class Commands {
+  /** The command whose answer is awaited. */
+  pending = $state<Command | null>(null);
+
+  /** Gives a command if it can be given; otherwise says why not. */
+  async give(command: Exclude<Command, "stop">): Promise<void> {
+    if (this.pending !== null) return;
+    const label = COMMANDS.find((info) => info.command === command)?.label ?? command;
+    const reason = refusal(command, rig.status, rig.fresh, tests.chosen);
+    if (reason !== null) return messages.show(TOPIC, `${label} cannot be given now. ${reason}.`);
+    this.pending = command;
+    try {
+      if (command === "start") await startRun(tests.chosen!.id);
+      else await sendCommand(command);
+      messages.clear(TOPIC);
+    } catch (error) {
+      const what = error instanceof Problem && error.status !== null ? "was refused" : "was not delivered";
+      messages.show(TOPIC, `${label} ${what}. ${textOf(error)}`);
+    } finally {
+      this.pending = null;
+    }
+  }
+}
+
+type StopState = "idle" | "sending" | "taken" | "failed";
+
+class Stop {
+  state = $state<StopState>("idle");
+  failure = $state("");
+  private serial = 0;
+
+  /** Sends Stop at once, whatever else goes on; tries again where the network failed. Never asks. */
+  async press(): Promise<void> {
+    const serial = ++this.serial;
+    this.state = "sending";
+    const error = await this.deliver();
+    if (serial !== this.serial) return;
+    this.state = error === null ? "taken" : "failed";
+    this.failure = error === null ? "" : textOf(error);
+    if (error === null)
+      window.setTimeout(() => {
+        if (serial === this.serial) this.state = "idle";
+      }, STOP_SHOWN_MS);
+  }
+
+  dismiss(): void {
+    this.serial += 1;
+    this.state = "idle";
+    this.failure = "";
+  }
+
+  private async deliver(): Promise<unknown> {
+    let failure: unknown = null;
+    for (let attempt = 0; attempt < STOP_TRIES; attempt += 1) {
+      try {
+        await sendCommand("stop", { keepalive: true, signal: AbortSignal.timeout(STOP_WAIT_MS) });
+        return null;
+      } catch (error) {
+        failure = error;
+        if (error instanceof Problem && error.status !== null && error.status < 500) break; // it was understood
+      }
+    }
+    return failure;
+  }
+}
+
+export const commands = new Commands();
+export const stop = new Stop();

@@ -1,0 +1,89 @@
+import { describe, expect, it } from "vitest";
+import type { Freshness } from "./freshness";
+import { COMMANDS, guidance, nextCommand, refusal } from "./operate";
+import type { Command, Mode, RigStatus, TestSummary } from "./types";
+import { modeWords } from "./words";
+
+const FRESH: Freshness = { stale: false, trouble: null, age_s: 0.05 };
+const LOST: Freshness = { stale: true, trouble: "link", age_s: 3 };
+const STEP: TestSummary = {
+  id: 3,
+  name: "Step 2 kN",
+  description: "",
+  duration_s: 4,
+  peak_force_n: 2000,
+  blocks: 3,
+};
+
+function status(mode: Mode, refusals: Partial<Record<Command, string>> = {}): RigStatus {
+  const commands = Object.fromEntries(COMMANDS.map(({ command }) => [command, refusals[command] ?? null]));
+  return { mode, commands } as unknown as RigStatus;
+}
+
+describe("refusal", () => {
+  it("gives the reason of the server", () => {
+    expect(refusal("hold", status("off", { hold: "Nothing is running" }), FRESH, STEP)).toBe(
+      "Nothing is running",
+    );
+    expect(refusal("reset", status("tripped"), FRESH, null)).toBeNull();
+  });
+
+  it("wants a test before a start", () => {
+    expect(refusal("start", status("ready"), FRESH, null)).toBe("Choose a test first");
+    expect(refusal("start", status("ready"), FRESH, STEP)).toBeNull();
+    expect(refusal("start", status("off", { start: "Not pressurised" }), FRESH, null)).toBe(
+      "Not pressurised",
+    );
+  });
+
+  it("refuses everything but Stop while no data arrive", () => {
+    expect(refusal("start", status("ready"), LOST, STEP)).toBe("No link to the server");
+    expect(refusal("stop", null, LOST, null)).toBeNull();
+  });
+
+  it("does not take a command that the server never mentioned for allowed", () => {
+    expect(refusal("shutdown", status("ready"), FRESH, STEP)).toBe("Not offered by this server");
+  });
+});
+
+describe("nextCommand", () => {
+  it.each([
+    ["tripped", "reset"],
+    ["off", "pressurise"],
+    ["ready", "start"],
+    ["holding", "resume"],
+    ["pressurising", null],
+    ["running", null],
+    ["stopping", null],
+    ["lost", null],
+  ] as const)("when %s is %s", (mode, command) => {
+    expect(nextCommand(status(mode), FRESH, STEP)).toBe(command);
+  });
+
+  it("is nothing where that command would be refused", () => {
+    expect(nextCommand(status("tripped", { reset: "Supply pressure still high" }), FRESH, STEP)).toBeNull();
+    expect(nextCommand(status("ready"), FRESH, null)).toBeNull();
+    expect(nextCommand(status("ready"), LOST, STEP)).toBeNull();
+  });
+});
+
+describe("guidance", () => {
+  it("says what to do, or why it cannot be done", () => {
+    expect(guidance(status("ready"), FRESH, STEP)).toBe("Press Start to run “Step 2 kN”.");
+    expect(guidance(status("ready"), FRESH, null)).toBe("Choose a test first");
+    expect(guidance(status("tripped", { reset: "Supply pressure still high" }), FRESH, null)).toBe(
+      "Supply pressure still high",
+    );
+    expect(guidance(status("ready"), LOST, STEP)).toMatch(/Stop is always sent/);
+  });
+});
+
+describe("modeWords", () => {
+  it("never shows a mode that is no longer known", () => {
+    expect(modeWords(status("running"), FRESH)).toEqual({ text: "Running", tone: "active" });
+    expect(modeWords(status("tripped"), FRESH)).toEqual({ text: "Tripped", tone: "trip" });
+    expect(modeWords(status("running"), LOST).text).toBe("Link lost");
+    expect(modeWords(status("running"), { ...LOST, trouble: "loop" }).text).toBe("Loop lost");
+    expect(modeWords(null, { stale: true, trouble: "connecting", age_s: null }).text).toBe("Connecting");
+  });
+});

@@ -1,0 +1,82 @@
+// Which commands there are, why one cannot be given now, and which is the sensible next one. Pure.
+
+import type { Freshness } from "./freshness";
+import type { Command, Mode, RigStatus, TestSummary } from "./types";
+
+export interface CommandInfo {
+  readonly command: Command;
+  readonly label: string;
+  readonly key: string;
+}
+
+/** In the order in which a session goes. Stop is apart: it has its own control and its own key. */
+export const COMMANDS: readonly CommandInfo[] = [
+  { command: "reset", label: "Reset", key: "r" },
+  { command: "pressurise", label: "Pressurise", key: "p" },
+  { command: "start", label: "Start", key: "s" },
+  { command: "hold", label: "Hold", key: "h" },
+  { command: "resume", label: "Resume", key: "u" },
+  { command: "depressurise", label: "Depressurise", key: "d" },
+];
+export const STOP: CommandInfo = { command: "stop", label: "Stop", key: "Escape" };
+
+const NO_DATA: Record<NonNullable<Freshness["trouble"]>, string> = {
+  connecting: "No link to the server yet",
+  link: "No link to the server",
+  loop: "The loop process is lost",
+  samples: "No samples arrive",
+};
+
+/** Why a command cannot be given now; null where it can. Stop can always be given. */
+export function refusal(
+  command: Command,
+  status: RigStatus | null,
+  fresh: Freshness,
+  chosen: TestSummary | null,
+): string | null {
+  if (command === "stop") return null;
+  if (fresh.trouble !== null) return NO_DATA[fresh.trouble];
+  const reason = status?.commands[command];
+  if (reason === undefined) return "Not offered by this server";
+  if (reason !== null) return reason;
+  return command === "start" && chosen === null ? "Choose a test first" : null;
+}
+
+const NEXT: Partial<Record<Mode, Command>> = {
+  tripped: "reset",
+  off: "pressurise",
+  ready: "start",
+  holding: "resume",
+};
+
+/** The command that takes the rig one step further, if it can be given now. */
+export function nextCommand(
+  status: RigStatus | null,
+  fresh: Freshness,
+  chosen: TestSummary | null,
+): Command | null {
+  const next = status === null ? undefined : NEXT[status.mode];
+  return next !== undefined && refusal(next, status, fresh, chosen) === null ? next : null;
+}
+
+/** One line that tells a person at the rig what to do now. */
+export function guidance(status: RigStatus | null, fresh: Freshness, chosen: TestSummary | null): string {
+  if (status === null || fresh.stale) return "Commands wait until data arrive again. Stop is always sent.";
+  const next = nextCommand(status, fresh, chosen);
+  const test = chosen === null ? "" : ` “${chosen.name}”`;
+  if (next === "start") return `Press Start to run${test}.`;
+  if (next !== null) return SENTENCES[next] ?? "";
+  const wanted = NEXT[status.mode];
+  if (wanted !== undefined) return refusal(wanted, status, fresh, chosen) ?? "";
+  return WAITING[status.mode] ?? "";
+}
+
+const SENTENCES: Partial<Record<Command, string>> = {
+  reset: "Press Reset to clear the latch. Reset starts nothing.",
+  pressurise: "Press Pressurise to bring up the supply.",
+  resume: "Held. Press Resume to go on, or Stop to end the run.",
+};
+const WAITING: Partial<Record<Mode, string>> = {
+  pressurising: "The supply pressure is rising.",
+  stopping: "Stopping: the load is brought down.",
+};

@@ -1,0 +1,116 @@
+// What the pages know of the rig. Only what changes ten times a second or slower is reactive; samples are not.
+
+import { judge, sentence, type Freshness, type Signs } from "./freshness";
+import { Link } from "./link";
+import { prepare, recentSpan, take, type Span } from "./samples";
+import type { Hello, RigEvent, RigStatus, ServerMessage } from "./types";
+
+const EVENTS_KEPT = 200;
+const JUDGE_EVERY_MS = 100;
+const SPANS = ["force_n", "displacement_m", "velocity_m_s", "valve_command"] as const;
+const SPAN_S = 1;
+
+export interface LoggedEvent extends RigEvent {
+  serial: number;
+}
+
+const now_s = (): number => performance.now() / 1000;
+
+class Rig {
+  status = $state.raw<RigStatus | null>(null);
+  hello = $state.raw<Hello | null>(null);
+  /** Newest first, bounded. */
+  events = $state.raw<readonly LoggedEvent[]>([]);
+  /** Extremes of the last second, for the meters. */
+  spans = $state.raw<Readonly<Record<string, Span>>>({});
+  fresh = $state.raw<Freshness>({ stale: true, trouble: "connecting", age_s: null });
+  /** Frames that could not be read, and the last reason. */
+  unreadable = $state.raw({ frames: 0, detail: "" });
+  /** Goes up each time the list of runs has changed. */
+  runsVersion = $state(0);
+
+  readonly trouble = $derived(sentence(this.fresh));
+
+  private signs: Signs = {
+    socketOpen: false,
+    statusAt_s: null,
+    samplesAt_s: null,
+    loopAlive: null,
+    loopAge_s: null,
+  };
+  private serial = 0;
+  private link: Link | null = null;
+
+  /** Connects, and keeps connecting. @returns a function that ends it. */
+  connect(): () => void {
+    const { protocol, host } = window.location;
+    const link = new Link(`${protocol === "https:" ? "wss" : "ws"}://${host}/api/v1/live`, {
+      opened: () => this.note({ socketOpen: true }),
+      closed: () => this.note({ socketOpen: false }),
+      message: (message) => this.receive(message),
+      samples: (frame) => {
+        take(frame);
+        this.signs = { ...this.signs, samplesAt_s: now_s() };
+      },
+      unreadable: (detail) => {
+        this.unreadable = { frames: this.unreadable.frames + 1, detail };
+      },
+    });
+    this.link = link;
+    link.connect();
+    const timer = window.setInterval(() => this.judge(), JUDGE_EVERY_MS);
+    const hurry = (): void => link.hurry();
+    window.addEventListener("online", hurry);
+    return () => {
+      window.clearInterval(timer);
+      window.removeEventListener("online", hurry);
+      link.end();
+    };
+  }
+
+  private receive(message: ServerMessage): void {
+    if (message.type === "status") this.takeStatus(message.status);
+    else if (message.type === "hello") this.takeHello(message);
+    else if (message.type === "event") this.log(message.event);
+    else if (message.type === "runs") this.runsVersion += 1;
+    else if (message.type === "error")
+      this.unreadable = { frames: this.unreadable.frames, detail: message.detail };
+  }
+
+  private takeHello(hello: Hello): void {
+    this.hello = hello;
+    this.link?.subscribe(prepare(hello));
+    this.runsVersion += 1; // what changed while nobody listened is not known
+    this.note({ samplesAt_s: now_s() });
+  }
+
+  private takeStatus(status: RigStatus): void {
+    this.status = status;
+    this.spans = Object.fromEntries(SPANS.map((channel) => [channel, recentSpan(channel, SPAN_S)]));
+    this.note({ statusAt_s: now_s(), loopAlive: status.loop.alive, loopAge_s: status.loop.data_age_s });
+  }
+
+  private log(event: RigEvent): void {
+    this.serial += 1;
+    this.events = [{ ...event, serial: this.serial }, ...this.events.slice(0, EVENTS_KEPT - 1)];
+  }
+
+  private note(signs: Partial<Signs>): void {
+    this.signs = { ...this.signs, ...signs };
+    this.judge();
+  }
+
+  private judge(): void {
+    const next = judge(this.signs, now_s());
+    const { stale, trouble, age_s } = this.fresh;
+    const sameAge = tenths(next.age_s) === tenths(age_s);
+    if (next.stale !== stale || next.trouble !== trouble || !sameAge) this.fresh = next;
+  }
+}
+
+/** Age in tenths of a second, rounded up: what the screen shows. */
+function tenths(age_s: number | null): number | null {
+  return age_s === null ? null : Math.ceil(age_s * 10);
+}
+
+export const rig = new Rig();
