@@ -1,0 +1,141 @@
+// A recorded run on canvas: bands of extremes when far away, single ticks when close.
+
+import uPlot from "uplot";
+import type { RunSamples } from "../live/types";
+import { theme } from "../theme.svelte";
+import { quantityOf, TIME, withUnit } from "../units";
+import { bandData, bandExtent, bandFigure } from "./bands";
+import { colour } from "./colours";
+import type { Readout } from "./livePlot";
+import { axes, line, padding, SCALES } from "./options";
+import { steadyRange } from "./scale";
+import { colourOf, type ChartInfo, type SeriesInfo } from "./series";
+import type { TimeWindow } from "./zoom";
+
+const LEAST_DRAG_PX = 4;
+const SETTLE_MS = 200;
+const LEAST_POINTS = 200;
+
+export interface RunPlotEvents {
+  /** A stretch of time was dragged over. */
+  selected(window: TimeWindow): void;
+  doubleClicked(): void;
+  /** How many points are worth fetching at the present width: two a pixel. */
+  fits(points: number): void;
+}
+
+export class RunPlot {
+  private plot: uPlot;
+  private readonly series: readonly SeriesInfo[];
+  private readonly channels: readonly string[];
+  private readonly quantity;
+  private samples: RunSamples | null = null;
+  private window: TimeWindow = { from_s: 0, to_s: 1 };
+  private settling = 0;
+  private readonly ends: (() => void)[];
+
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly info: ChartInfo,
+    private readonly readout: Readout,
+    private readonly events: RunPlotEvents,
+  ) {
+    this.series = info.series.filter((entry) => !entry.off);
+    this.channels = this.series.map((entry) => entry.channel);
+    this.quantity = quantityOf(this.channels[0]!);
+    this.plot = this.build();
+    this.fit();
+    const resizing = new ResizeObserver(() => this.resize());
+    resizing.observe(host);
+    this.ends = [theme.onChange(() => this.rebuild()), () => resizing.disconnect()];
+  }
+
+  destroy(): void {
+    window.clearTimeout(this.settling);
+    for (const end of this.ends) end();
+    this.plot.destroy();
+  }
+
+  /** Shows a window of time with the samples there are: an old picture until the finer one has come. */
+  show(shown: TimeWindow, samples: RunSamples | null): void {
+    this.window = shown;
+    this.samples = samples;
+    this.draw();
+  }
+
+  private draw(): void {
+    const { samples, channels, window: shown } = this;
+    if (!samples) return;
+    const { low, high } = bandExtent(samples, channels);
+    const { min, max } = steadyRange(null, low, high, 0, { ...this.info.scale, centred: false });
+    this.plot.batch((u: uPlot) => {
+      u.setData(bandData(samples, channels), false);
+      u.setScale("x", { min: shown.from_s, max: shown.to_s });
+      u.setScale("y", { min, max });
+    });
+  }
+
+  private build(): uPlot {
+    const isSparse = (plot: uPlot): boolean => (plot.data[0]?.length ?? 0) < plot.bbox.width / 8;
+    const lines = this.series.flatMap(({ label, role }) => {
+      const extreme = { ...line(label, colourOf(role), 1.25), points: { show: isSparse, size: 5 } };
+      return [extreme, { ...extreme }];
+    });
+    const options: uPlot.Options = {
+      width: this.host.clientWidth,
+      height: this.host.clientHeight,
+      legend: { show: false },
+      padding: padding(),
+      scales: SCALES,
+      axes: axes({ quantity: this.quantity, timeLabels: true }),
+      series: [{}, ...lines],
+      bands: this.series.map(({ role }, i) => ({
+        series: [2 * i + 2, 2 * i + 1] as [number, number],
+        fill: () => `color-mix(in srgb, ${colour(colourOf(role))} 45%, transparent)`,
+      })),
+      cursor: {
+        y: false,
+        drag: { x: true, y: false, setScale: false, dist: LEAST_DRAG_PX },
+        bind: { dblclick: () => () => (this.events.doubleClicked(), null) },
+      },
+      hooks: { setCursor: [() => this.readOut()], setSelect: [(plot) => this.select(plot)] },
+    };
+    return new uPlot(options, [[], ...lines.map(() => [])], this.host);
+  }
+
+  private select(plot: uPlot): void {
+    const { left, width } = plot.select;
+    if (width < LEAST_DRAG_PX) return;
+    this.events.selected({ from_s: plot.posToVal(left, "x"), to_s: plot.posToVal(left + width, "x") });
+    plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
+  }
+
+  private rebuild(): void {
+    this.plot.destroy();
+    this.plot = this.build();
+    this.draw();
+  }
+
+  private resize(): void {
+    this.plot.setSize({ width: this.host.clientWidth, height: this.host.clientHeight });
+    window.clearTimeout(this.settling);
+    this.settling = window.setTimeout(() => this.fit(), SETTLE_MS);
+  }
+
+  private fit(): void {
+    this.events.fits(Math.max(LEAST_POINTS, Math.round(2 * this.plot.over.clientWidth)));
+  }
+
+  private readOut(): void {
+    const { idx, left } = this.plot?.cursor ?? {};
+    const { samples } = this;
+    const at = samples && typeof idx === "number" && (left ?? -1) >= 0 ? idx : null;
+    this.readout.time.textContent = at === null ? "" : withUnit(TIME, samples?.time_s[at], 3);
+    this.channels.forEach((channel, i) => {
+      const field = this.readout.values[i];
+      if (field) {
+        field.textContent = at === null || !samples ? "" : bandFigure(samples, channel, at, this.quantity);
+      }
+    });
+  }
+}
