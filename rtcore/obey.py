@@ -145,7 +145,7 @@ def take_command(core: Record, block: Record, block_address: int, now_ns: int) -
     command = block.commands[core.commands_seen % COMMAND_SLOTS]
     stops = command.opcode == Opcode.STOP or command.opcode == Opcode.SHUTDOWN
     if command.sequence != core.commands_seen:
-        reply = Reply.REPLAYED
+        reply: int = Reply.REPLAYED
     elif now_ns > command.expires_ns and not stops and core.checked_segments == 0:
         reply = Reply.EXPIRED
     elif command.lease < core.lease and not stops:
