@@ -6,5 +6,5 @@ export default defineConfig({
   plugins: [svelte()],
   build: { outDir: "../app/static", emptyOutDir: true },
   server: { proxy: { "/api": { target: "http://127.0.0.1:8000", ws: true } } },
-  test: { include: ["src/**/*.test.ts"] },
+  test: { include: ["src/**/*.test.ts"], css: true },
 });
