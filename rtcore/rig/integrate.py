@@ -6,7 +6,7 @@ the held command. Where the piston turns round within the tick, friction asks fo
 
 import numpy as np
 
-from rtcore.compiled import Array, Record, kernel
+from rtcore.compiled import Array, Record, inlined, kernel
 from rtcore.rig.derivatives import rig_derivatives
 from rtcore.rig.plant import (
     FLOWS,
@@ -47,7 +47,7 @@ def settle_gas(plant: Record, y: Array) -> None:
     )
 
 
-@kernel
+@inlined
 def move_valve(
     plant: Record, x_f: float, v_f: float, x_s: float, command: float, h: float, steps: int
 ) -> tuple[float, float, float]:
@@ -67,7 +67,7 @@ def move_valve(
     return x_f, v_f, x_s
 
 
-@kernel
+@inlined
 def piston_turns(plant: Record, y: Array, dy: Array, duration_s: float) -> bool:
     """Whether the piston's slip passes through the steep part of the friction, and passes quickly."""
     change = abs(dy[V_R] - dy[V_B]) * duration_s

@@ -1,6 +1,6 @@
 """Programs, gains and interlocks by hand, for tests that must not lean on the app's own expansion."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from rtcore.modes import Mode
 from rtcore.program.segments import PROGRAM, TABLE, Branch, Segment
 
 PERIOD_S = 250e-6
-Row = Mapping[str, Any]
+Row = dict[str, Any]
 
 HOLD_ROW: Row = {"kind": Segment.HOLD}
 END_ROW: Row = {"kind": Segment.END}

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from rtcore.program.generator import GENERATOR, generate, start
 from rtcore.program.segments import Segment
-from tests.unit.rtcore.programs import HOLD_ROW, PERIOD_S, harmonic, step, table
+from tests.unit.rtcore.programs import HOLD_ROW, PERIOD_S, Row, harmonic, step, table
 
 HOLD_FADE, STOP_FADE = 1000, 2000
 
@@ -96,7 +96,7 @@ def test_a_ramp_at_a_rate_takes_as_long_as_it_needs() -> None:
 
 
 def test_repeats_nest() -> None:
-    inner = [
+    inner: list[Row] = [
         {"kind": Segment.LINEAR, "target": 1.0, "ticks": 2},
         {"kind": Segment.LINEAR, "target": 0.0, "ticks": 2},
         {"kind": Segment.REPEAT, "jump": 0, "times": 3},

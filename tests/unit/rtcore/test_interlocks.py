@@ -1,6 +1,7 @@
 """One detector by itself."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ from tests.unit.rtcore.programs import FORCE_LIMIT, detector, interlocks
 finite = st.floats(allow_nan=False, allow_infinity=False, width=32)
 
 
-def one(comparison: Comparison, threshold: float) -> np.void:
+def one(comparison: Comparison, threshold: float) -> Any:
     record = np.zeros(1, DETECTOR)[0]
     record["comparison"] = comparison
     record["threshold"] = threshold

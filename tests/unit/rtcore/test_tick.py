@@ -1,6 +1,5 @@
 """The whole tick on the virtual clock: what commands, detectors and silence do, tick by tick."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -39,7 +38,7 @@ def virtual() -> Virtual:
 
 
 @pytest.fixture
-def running() -> Iterator[Virtual]:
+def running() -> Virtual:
     rig = make(FORCE_LIMIT, SILENCE)
     rig.bring_to_ready()
     assert rig.load_program(LONG) == Reply.ACCEPTED
