@@ -48,8 +48,8 @@ def keep_time(
 
 @kernel
 def _bin_of(time_ns: int) -> int:
-    """The bin of a time; the last one takes all that is longer."""
-    return int(min(time_ns // BIN_NS, HISTOGRAM_BINS - 1))
+    """The bin of a time: never outside the histogram; the last one takes all that is longer."""
+    return int(min(max(time_ns // BIN_NS, 0), HISTOGRAM_BINS - 1))
 
 
 @kernel

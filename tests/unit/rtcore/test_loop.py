@@ -127,7 +127,7 @@ def accounted(block: Block, *, latency_ns: int, tick_time_ns: int) -> Any:
 
 @pytest.mark.parametrize(
     ("time_ns", "expected_bin"),
-    [(0, 0), (999, 0), (1_000, 1), (998_999, 998), (999_000, 999), (10**12, 999)],
+    [(-5_000, 0), (0, 0), (999, 0), (1_000, 1), (998_999, 998), (999_000, 999), (10**12, 999)],
 )
 def test_times_fall_into_bins_of_a_microsecond_and_long_ones_into_the_last(
     block: Block, time_ns: int, expected_bin: int
