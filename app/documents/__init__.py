@@ -1,0 +1,1 @@
+"""YAML and JSON documents that people write, read into frozen models or usefully refused."""
