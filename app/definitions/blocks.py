@@ -1,0 +1,112 @@
+"""The blocks of a test: what the force does, in sequence."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from app.definitions.checks import exactly_one, lasts, within
+from app.definitions.later import LATER_BLOCKS, refuse_later
+from app.definitions.limits import RIG
+from app.definitions.quantities import (
+    AmplitudeN,
+    Cycles,
+    DurationS,
+    ForceN,
+    FrequencyHz,
+    PhaseDeg,
+    RateNS,
+    RiseS,
+    TaperCycles,
+    Times,
+)
+from app.documents.fields import Document
+
+
+class Hold(Document):
+    """Stay at a force, or where the setpoint is."""
+
+    kind: Literal["hold"] = "hold"
+    force_n: ForceN | None = None
+    duration_s: DurationS
+
+
+class Ramp(Document):
+    """To a force at a constant rate, or within a time."""
+
+    kind: Literal["ramp"] = "ramp"
+    to_n: ForceN
+    rate_n_s: RateNS | None = None
+    duration_s: DurationS | None = None
+
+    @model_validator(mode="after")
+    def _checked(self) -> Self:
+        exactly_one("rate_n_s", self.rate_n_s, "duration_s", self.duration_s)
+        return self
+
+
+class Step(Document):
+    """To a force at once, or along half a cosine in `rise_s`; then stay there."""
+
+    kind: Literal["step"] = "step"
+    to_n: ForceN
+    hold_s: DurationS
+    rise_s: RiseS = 0.0
+
+
+class Harmonic(Document):
+    """A sine about a mean. `cycles` and `duration_s` count full-amplitude cycles only."""
+
+    kind: Literal["harmonic"] = "harmonic"
+    mean_n: ForceN = 0.0
+    amplitude_n: AmplitudeN
+    frequency_hz: FrequencyHz
+    cycles: Cycles | None = None
+    duration_s: DurationS | None = None
+    phase_deg: PhaseDeg = 0.0
+    taper_cycles: TaperCycles = 2.0
+
+    @model_validator(mode="after")
+    def _checked(self) -> Self:
+        exactly_one("cycles", self.cycles, "duration_s", self.duration_s)
+        within("amplitude_n", self.mean_n, self.amplitude_n, RIG.force_limit_n, "N")
+        lasts("cycles", self.cycles, self.frequency_hz)
+        return self
+
+
+class Layer(Document):
+    """One layer of a load spectrum."""
+
+    mean_n: ForceN = 0.0
+    amplitude_n: AmplitudeN
+    frequency_hz: FrequencyHz
+    cycles: Cycles
+
+    @model_validator(mode="after")
+    def _checked(self) -> Self:
+        within("amplitude_n", self.mean_n, self.amplitude_n, RIG.force_limit_n, "N")
+        lasts("cycles", self.cycles, self.frequency_hz)
+        return self
+
+
+class Layers(Document):
+    """A load spectrum: layers of harmonic load that change into one another without a stop."""
+
+    kind: Literal["layers"] = "layers"
+    layers: tuple[Layer, ...] = Field(min_length=1, max_length=RIG.block_limit)
+    repeats: Times = 1
+    transition_s: DurationS
+
+
+class Repeat(Document):
+    """Blocks, so many times in all."""
+
+    kind: Literal["repeat"] = "repeat"
+    times: Times
+    blocks: "tuple[Block, ...]" = Field(min_length=1, max_length=RIG.block_limit)
+
+
+Block = Annotated[
+    Annotated[Hold | Ramp | Step | Harmonic | Layers | Repeat, Field(discriminator="kind")],
+    refuse_later(LATER_BLOCKS, "a block"),
+]
+Repeat.model_rebuild()

@@ -1,0 +1,56 @@
+"""Which ticks of a test's program are data: counted cycles, and steps."""
+
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from app.analysis.evidence import StepWindow, Windows
+from app.definitions.definition import Definition
+from app.definitions.extent import AT_REST, State, after, ticks_of
+from app.definitions.nodes import force_nodes
+from app.definitions.pieces import Node, Piece
+
+
+class _Played(NamedTuple):
+    piece: Piece
+    before: State
+    after: State
+    first: int  # tick
+    last: int  # one past
+
+
+def windows(definition: Definition, at_most_ticks: int) -> Windows:
+    """The windows of a definition's force program, as far as a run of so many ticks gets."""
+    blocks = force_nodes(definition.blocks, definition.controller.compensation)
+    cycles: list[tuple[int, int]] = []
+    steps: list[StepWindow] = []
+    step: _Played | None = None
+    end = 0
+    for played in _play(node for nodes in blocks for node in nodes):
+        if played.first >= at_most_ticks:
+            break
+        end = played.last
+        if step is not None:
+            begin_n, end_n = step.before.value, step.after.value
+            steps.append(StepWindow(step.first, played.last, begin_n, end_n))
+        step = played if played.piece.is_step else None
+        if played.piece.counts:
+            cycles.append((played.first, played.last))
+    return Windows(end, tuple(cycles), tuple(steps))
+
+
+def _play(nodes: Iterable[Node]) -> Iterator[_Played]:
+    """Every piece in the order in which the loop carries it out."""
+    state, tick = AT_REST, 0
+    for piece in _unrolled(nodes):
+        ticks, end = ticks_of(piece, state), after(piece, state)
+        yield _Played(piece, state, end, tick, tick + ticks)
+        state, tick = end, tick + ticks
+
+
+def _unrolled(nodes: Iterable[Node]) -> Iterator[Piece]:
+    for node in nodes:
+        if isinstance(node, Piece):
+            yield node
+        else:
+            for _ in range(node.times):
+                yield from _unrolled(node.body)

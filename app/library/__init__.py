@@ -1,0 +1,1 @@
+"""Example tests as YAML; `app.definitions.library` reads them."""
