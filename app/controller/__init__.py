@@ -1,0 +1,1 @@
+"""The settings of the control law: what they may be, which are shipped, what the loop gets."""

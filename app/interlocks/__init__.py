@@ -1,0 +1,1 @@
+"""The interlocks: which detectors watch the rig, and what the loop gets of them."""
