@@ -15,6 +15,8 @@ from alembic.config import Config
 from sqlalchemy import DateTime, Dialect, Engine, TypeDecorator, create_engine, event
 from sqlalchemy.orm import DeclarativeBase, Session
 
+from app.settings import Settings
+
 BUSY_TIMEOUT_MS = 15_000
 _PRAGMAS = (
     "PRAGMA journal_mode=WAL",
@@ -87,6 +89,14 @@ class Database:
     def close(self) -> None:
         """Close every connection."""
         self.engine.dispose()
+
+
+def upgrade(data_dir: Path) -> None:
+    """Bring the database of a data directory to the newest revision."""
+    data_dir.mkdir(parents=True, exist_ok=True)
+    database = Database(Settings(data_dir=data_dir).database_address)
+    database.upgrade()
+    database.close()
 
 
 def migrations_folder() -> Path:

@@ -15,8 +15,10 @@ from fastapi.responses import HTMLResponse
 
 from app.catalogue.router import router as tests_router
 from app.docs_page import docs_page
+from app.errors import Refusal
 from app.health import router as health_router
 from app.live.router import router as live_router
+from app.presets import Presets, load_presets
 from app.problems import install_handlers
 from app.rigs.router import router as rig_router
 from app.runs.router import router as runs_router
@@ -29,12 +31,16 @@ from app.wiring import Console
 _LONGEST_FRAME = 16_384  # of a browser's WebSocket message
 
 
-def create_app(settings: Settings) -> FastAPI:
-    """The application. Its life is that of the console: it starts the loop and ends it."""
+def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
+    """The application. Its life is that of the console: it starts the loop and ends it.
+
+    Without presets it can be described, not run.
+    """
 
     @asynccontextmanager
     async def life(app: FastAPI) -> AsyncIterator[None]:
-        console = app.state.console = Console(settings)
+        assert presets is not None
+        console = app.state.console = Console(settings, presets)
         await run_sync(console.open)
         console.broadcaster.start()
         yield
@@ -63,8 +69,8 @@ def create_app(settings: Settings) -> FastAPI:
     return app
 
 
-def serve(host: str | None = None, port: int | None = None, data_dir: Path | None = None) -> int:
-    """Run the console until SIGTERM or SIGINT. Returns an exit status.
+def serve(host: str | None = None, port: int | None = None, data_dir: Path | None = None) -> None:
+    """Run the console until SIGTERM or SIGINT. Raises `SystemExit` with 2 where it cannot start.
 
     What is not given comes from the environment, or is as shipped. Port 0 takes any free port; the
     address is printed either way.
@@ -78,17 +84,20 @@ def serve(host: str | None = None, port: int | None = None, data_dir: Path | Non
     try:
         with hold_data_folder(settings.data_dir), bind(settings.host, settings.port) as listener:
             check(settings)
+            presets = load_presets(settings)
+            if isinstance(presets, Refusal):
+                raise CannotServe(presets.detail)
             print(f"forcerig console: {url_of(listener)}", flush=True)
-            uvicorn.Server(_uvicorn_config(settings)).run(sockets=[listener])
+            uvicorn.Server(_uvicorn_config(settings, presets)).run(sockets=[listener])
     except CannotServe as error:
         print(f"forcerig: {error}", file=sys.stderr, flush=True)
-        return 2
-    return 0
+        raise SystemExit(2) from None
 
 
-def _uvicorn_config(settings: Settings) -> uvicorn.Config:
+def _uvicorn_config(settings: Settings, presets: Presets) -> uvicorn.Config:
     return uvicorn.Config(
-        create_app(settings),
+        create_app(settings, presets),
+        http="h11",  # it bounds the head of a request; httptools would read one without end
         log_config=None,
         access_log=False,
         ws_per_message_deflate=False,  # noisy float32 shrinks to 93 % for 260 µs a frame

@@ -8,12 +8,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import yaml
-
 from app.link.paths import block_path
 from app.link.supervisor import BlockError, left_over
 from app.settings import Settings
-from rtcore.rig.parameters import load_rig
 
 _BACKLOG = 256
 
@@ -42,12 +39,11 @@ def hold_data_folder(folder: Path) -> Iterator[None]:
 
 
 def check(settings: Settings) -> None:
-    """That the rig can be read, and that no loop of another version runs on its block."""
+    """That no loop of another version runs on the block of this data directory."""
     try:
-        load_rig(settings.rig_file)
         left_over(block_path(settings.data_dir))
-    except (BlockError, OSError, ValueError, yaml.YAMLError) as error:
-        raise CannotServe(" ".join(str(error).split())) from error
+    except (BlockError, OSError) as error:
+        raise CannotServe(str(error)) from error
 
 
 @contextmanager

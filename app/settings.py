@@ -21,6 +21,8 @@ class Settings(BaseSettings):
     database_url: str | None = None  # None: SQLite in the data directory
     allowed_hosts: tuple[str, ...] = ()  # names besides localhost under which browsers come
     rig_file: Path | None = None  # None: the rig of the paper
+    controller_file: Path | None = None  # None: as shipped, as for the interlocks
+    interlocks_file: Path | None = None
     seed: Annotated[int, Field(ge=0)] = 0
     period_us: Annotated[int, Field(ge=50, le=1_000_000)] = 250
     margin_us: Annotated[int, Field(ge=0, le=1_000)] = 60

@@ -4,14 +4,13 @@ import logging
 from concurrent.futures import ThreadPoolExecutor
 
 from app.controller.record import to_record as gains_record
-from app.controller.settings import ControllerSettings
 from app.db import Database
-from app.interlocks.defaults import default_interlocks
 from app.interlocks.record import to_record as interlocks_record
 from app.link.link import Link
 from app.link.paths import block_path
 from app.link.process import LoopCommand
 from app.live.broadcaster import Broadcaster
+from app.presets import Presets
 from app.recording.clerk import Clerk
 from app.recording.recorder import Recorder
 from app.recording.recovery import close_orphans, sweep
@@ -23,7 +22,6 @@ from app.runs.service import Runs
 from app.runs.starting import Frozen, Starter
 from app.settings import Settings
 from rtcore.codes import Opcode
-from rtcore.rig.parameters import load_rig
 
 _log = logging.getLogger(__name__)
 
@@ -31,23 +29,21 @@ _log = logging.getLogger(__name__)
 class Console:
     """Everything that a request may need."""
 
-    def __init__(self, settings: Settings) -> None:
+    def __init__(self, settings: Settings, presets: Presets) -> None:
         self.settings = settings
-        self._gains, self._interlocks = ControllerSettings(), default_interlocks()
-        rig = load_rig(settings.rig_file)
+        self._presets = presets
         frozen = Frozen(
-            controller=self._gains.model_dump(mode="json"),
-            interlocks=self._interlocks.model_dump(mode="json"),
-            rig=rig.model_dump(mode="json"),
+            controller=presets.controller.model_dump(mode="json"),
+            interlocks=presets.interlocks.model_dump(mode="json"),
+            rig=presets.rig.model_dump(mode="json"),
         )
         self.database = Database(settings.database_address)
         self._clerk = Clerk(settings.runs_dir, Ledger(self.database, self._runs_changed))
         self.recorder = Recorder(settings.runs_dir, self._clerk)
         block = block_path(settings.data_dir)
         self.link = Link(LoopCommand.of(settings, block), self.recorder.follow, self._configure)
-        plans = Plans()
-        self._plans = plans
-        self.status = StatusReader(self.link, self.recorder, plans, rig.supply.high_pa)
+        self._plans = plans = Plans()
+        self.status = StatusReader(self.link, self.recorder, plans, presets.rig.supply.high_pa)
         self.rig = Rig(self.link, lambda: self.status.read().commands)
         self.runs = Runs(self.database, settings.runs_dir)
         self.starter = Starter(
@@ -91,8 +87,11 @@ class Console:
     def _configure(self, link: Link) -> bool:
         """Give a loop that has just started its gains and interlocks."""
         banks = (
-            (Opcode.ADOPT_GAINS, gains_record(self._gains)),
-            (Opcode.ADOPT_INTERLOCKS, interlocks_record(self._interlocks, self.period_s())),
+            (Opcode.ADOPT_GAINS, gains_record(self._presets.controller)),
+            (
+                Opcode.ADOPT_INTERLOCKS,
+                interlocks_record(self._presets.interlocks, self.period_s()),
+            ),
         )
         for opcode, record in banks:
             refusal = link.adopt(opcode, record)

@@ -63,7 +63,7 @@ def describe(record: Any, detectors: npt.NDArray[Any], period_ns: int) -> LoopEv
     return LoopEvent(
         sequence=int(record["sequence"]),
         tick=int(record["tick"]),
-        time_s=int(record["tick"]) * period_ns * 1e-9,
+        time_s=int(record["tick"]) * period_ns / 1e9,
         kind=kind,
         code=code,
         text=text,

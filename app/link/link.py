@@ -3,7 +3,6 @@
 import logging
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from typing import Any
 
 from app.errors import Code, Refusal
@@ -91,8 +90,9 @@ class Link:
     def forget(self) -> None:
         """Fall silent, and remove the block: all that was in it has been recorded."""
         self._heartbeat.stop()
-        with suppress(FileNotFoundError):
-            self._supervisor.block.unlink()
+        block = self._supervisor.block
+        for path in (block, block.with_suffix(".lock")):
+            path.unlink(missing_ok=True)
 
 
 def _is_loaded(life: Life) -> bool:

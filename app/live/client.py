@@ -76,8 +76,12 @@ class Client:
         while True:
             await self._something.wait()
             self._something.clear()
-            while await self._send_next(socket):
-                pass
+            await self.send_waiting(socket)
+
+    async def send_waiting(self, socket: Socket) -> None:
+        """Send what waits now, and what comes meanwhile. Raises as `send` does."""
+        while await self._send_next(socket):
+            pass
 
     async def _send_next(self, socket: Socket) -> bool:
         if self._overflowed:

@@ -5,6 +5,7 @@ again; what is on disk stays as it is until then.
 """
 
 import logging
+import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from queue import SimpleQueue
@@ -101,12 +102,19 @@ class Clerk:
         self._ending.discard(run_id)
         _log.info("run %d: %s, %d ticks", run_id, ending.outcome, recorded.ticks)
 
+    def work_off(self) -> None:
+        """Do what is on the desk now, once, in the thread that calls."""
+        while not self._jobs.empty():
+            job = self._jobs.get()
+            if job is not None:
+                self._done(job)
+
     def _work(self) -> None:
         while (job := self._jobs.get()) is not None:
             attempts = 0
             while not self._done(job) and attempts < ATTEMPTS_AT_THE_END:
                 attempts += self._stopping.is_set()
-                self._stopping.wait(RETRY_S)
+                time.sleep(RETRY_S)
 
     def _done(self, job: Job) -> bool:
         try:

@@ -87,7 +87,7 @@ class RunEventOut(BaseModel):
         since = event.tick - (run.first_tick or 0)
         return RunEventOut(
             tick=event.tick,
-            time_s=since * run.period_ns * 1e-9,
+            time_s=round(since * run.period_ns * 1e-9, 9),
             kind=event.kind,
             code=event.code,
             text=event.text,

@@ -46,8 +46,8 @@ def upgrade() -> None:
         sa.Column("kind", sa.String(30), nullable=False),
         sa.Column("code", sa.String(50), nullable=False),
         sa.Column("text", sa.String(500), nullable=False),
-        sa.Column("value", sa.Float),
-        sa.Column("limit", sa.Float),
+        sa.Column("value", sa.Double),
+        sa.Column("limit", sa.Double),
         sa.PrimaryKeyConstraint("run_id", "sequence"),
     )
 

@@ -1,0 +1,48 @@
+"""What a run is made with besides the test: rig, controller and interlocks, from files or shipped."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+import yaml
+
+from app.controller.record import load_controller
+from app.controller.settings import ControllerSettings
+from app.errors import Code, Refusal
+from app.interlocks.defaults import default_interlocks
+from app.interlocks.record import load_interlocks
+from app.interlocks.table import Interlocks
+from app.settings import Settings
+from rtcore.rig.parameters import RigParameters, load_rig
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Presets:
+    """The settings that the loop is given when it starts."""
+
+    controller: ControllerSettings
+    interlocks: Interlocks
+    rig: RigParameters
+
+
+def load_presets(settings: Settings) -> Presets | Refusal:
+    """The presets of these settings, or what is wrong with one of their files."""
+    controller = _from(settings.controller_file, load_controller, ControllerSettings)
+    if isinstance(controller, Refusal):
+        return controller
+    interlocks = _from(settings.interlocks_file, load_interlocks, default_interlocks)
+    if isinstance(interlocks, Refusal):
+        return interlocks
+    try:
+        return Presets(controller, interlocks, load_rig(settings.rig_file))
+    except (OSError, ValueError, yaml.YAMLError) as error:
+        return Refusal(Code.INVALID_REQUEST, f"{settings.rig_file}: {' '.join(str(error).split())}")
+
+
+def _from(
+    path: Path | None, load: Callable[[Path], T | Refusal], shipped: Callable[[], T]
+) -> T | Refusal:
+    return shipped() if path is None else load(path)
