@@ -74,6 +74,9 @@ CORE = np.dtype(
         ("commands_seen", "i8"),
         ("checked_segments", "i8"),  # of a program that waits to be adopted
         ("deadlines_missed", "i8"),
+        ("missed_unreported", "i8"),
+        ("latest_unreported_ns", "i8"),
+        ("next_report_tick", "i8"),
     ],
     align=True,
 )

@@ -35,16 +35,7 @@ def tick(
     """
     gains = block.gains[block.active_gains]
     settings = core.settings
-    core.deadlines_missed += missed
-    if missed > 0:
-        publish_event(
-            block_address,
-            core.tick,
-            EventKind.DEADLINES_MISSED,
-            missed,
-            wakeup_latency_ns,
-            0.0,
-        )
+    count_missed(core, block_address, missed, wakeup_latency_ns)
 
     # sample
     take_sample(settings, core.inputs, core.sample)
@@ -87,6 +78,28 @@ def tick(
     write_snapshot(block_address, address)
     publish_record(block_address)
     core.tick += 1
+
+
+@kernel
+def count_missed(core: Record, block_address: int, missed: int, latency_ns: int) -> None:
+    """Count the deadlines missed, and report them once a second: events must not bury events."""
+    core.deadlines_missed += missed
+    core.missed_unreported += missed
+    if missed > 0:
+        core.latest_unreported_ns = max(core.latest_unreported_ns, latency_ns)
+    if core.missed_unreported == 0 or core.tick < core.next_report_tick:
+        return
+    publish_event(
+        block_address,
+        core.tick,
+        EventKind.DEADLINES_MISSED,
+        core.missed_unreported,
+        core.latest_unreported_ns,
+        0.0,
+    )
+    core.missed_unreported = 0
+    core.latest_unreported_ns = 0
+    core.next_report_tick = core.tick + int(1.0 / core.settings.period_s)
 
 
 @kernel

@@ -335,3 +335,16 @@ def test_a_frozen_and_a_saturated_load_cell_are_faults() -> None:
     rig = make(faulty)
     rig.io.core["settings"]["force_range_n"] = 1.0
     assert rig.advance(10)["trips"][-1] == 1
+
+
+def test_missed_deadlines_are_all_counted_and_reported_once_a_second(virtual: Virtual) -> None:
+    virtual.events()
+    for _ in range(4000):
+        virtual.io.cycle(0, 600_000, 0, 2)
+    reports = [e for e in virtual.events() if e["kind"] == EventKind.DEADLINES_MISSED]
+    assert virtual.io.core["deadlines_missed"] == 8000
+    assert len(reports) == 1
+    virtual.advance(4000)
+    reports += [e for e in virtual.events() if e["kind"] == EventKind.DEADLINES_MISSED]
+    assert sum(int(e["code"]) for e in reports) == 8000
+    assert reports[-1]["value"] == 600_000
