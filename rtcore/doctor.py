@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from rtcore.latency import Counts, LoopFigures, WakeupProbe, longest_s, quantile_s
+from rtcore.latency import Counts, Idle, LoopFigures, LoopProbe, longest_s, quantile_s
 from rtcore.machine import Finding, Grade, findings, processor_line, stolen_share
 from rtcore.realtime import Condition, allowed_cpus
 
@@ -56,7 +56,7 @@ def measure() -> Measured:
     cpu = allowed_cpus()[-1]
     before = processor_line(cpu)
     found: dict[int, LoopFigures] = {}
-    with WakeupProbe(PERIOD_NS, cpu) as probe:
+    with LoopProbe(Idle, PERIOD_NS, cpu) as probe:
         margins = [MARGIN_NS, 0] * SLICES
         console = Console(stderr=True)
         for margin_ns in track(margins, "measuring wake-ups", console=console, transient=True):

@@ -1,12 +1,14 @@
-"""Figures of a loop's timing: quantiles of its histograms, and wake-ups measured without a tick."""
+"""Figures of a loop's timing: quantiles of its histograms, and a probe that measures some."""
 
 import json
+import signal
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Self
+from typing import Protocol, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -88,54 +90,70 @@ def read_figures(path: Path) -> LoopFigures:
     return figures_of(block, tuple(Condition(**condition) for condition in conditions))
 
 
-class _IdleCycle:
-    """A cycle that does nothing but end the loop after so many deadlines."""
+class Bound(Protocol):
+    """A rig bound to its block, as the loop drives it; `rtcore.io.simulated.SimulatedIo` is one."""
 
-    def __init__(self, deadlines: int) -> None:
-        self.left = deadlines
-        self.missed = 0
+    block: Block
 
-    def __len__(self) -> int:
-        return max(self.left, 0)
+    def cycle(self, now_ns: int, wakeup_latency_ns: int, tick_time_ns: int, missed: int) -> None:
+        """One tick."""
 
-    def __call__(self, now_ns: int, latency_ns: int, tick_time_ns: int, missed: int) -> None:
-        self.left -= 1 + missed
-        self.missed += missed
+
+class Idle:
+    """No rig and no tick: only the wake-ups are measured."""
+
+    def __init__(self, period_ns: int) -> None:
+        self.block = private_block(period_ns, seconds=0.01)
+
+    def cycle(self, now_ns: int, wakeup_latency_ns: int, tick_time_ns: int, missed: int) -> None:
+        """Nothing but a count of what was missed, as the tick keeps it."""
+        if missed:
+            self.block.fields["snapshot"]["deadlines_missed"] += missed
+
+
+Make = Callable[[int], Bound]  # period_ns → what is to be driven; a function of a module
 
 
 @cache
-def _conditions_of_this_process(cpu: int | None) -> tuple[Condition, ...]:
+def _armed(make: Make, period_ns: int, cpu: int | None) -> tuple[Bound, tuple[Condition, ...]]:
+    bound = make(period_ns)
     warm_up()
-    return tuple(take_all(cpu))
+    return bound, tuple(take_all(cpu))
 
 
-def _measure(seconds: float, period_ns: int, margin_ns: int, cpu: int | None) -> LoopFigures:
-    conditions = _conditions_of_this_process(cpu)
-    block = private_block(period_ns, seconds=0.01)
-    idle = _IdleCycle(round(seconds * 1e9 / period_ns))
+def _measure(
+    make: Make, period_ns: int, cpu: int | None, seconds: float, margin_ns: int
+) -> LoopFigures:
+    bound, conditions = _armed(make, period_ns, cpu)
+    fields = bound.block.fields
+    for figure in ("wakeup_histogram", "tick_time_histogram", "late_ticks"):
+        fields[figure] = 0
+    missed_before = int(fields["snapshot"]["deadlines_missed"])
+    running = [True]
+    signal.signal(signal.SIGALRM, lambda *_: running.clear())
+    signal.setitimer(signal.ITIMER_REAL, seconds)
     keep_time(
-        idle,
+        running,
         wait_until,
-        idle,
+        bound.cycle,
         account,
-        block_address=block.address,
+        block_address=bound.block.address,
         start_ns=now_ns(),
         period_ns=period_ns,
         margin_ns=margin_ns,
     )
-    block.fields["snapshot"]["deadlines_missed"] = idle.missed
-    return figures_of(block, conditions)
+    found = figures_of(bound.block, conditions)
+    return replace(found, deadlines_missed=found.deadlines_missed - missed_before)
 
 
-class WakeupProbe:
-    """Wakes up once a period under all conditions to be had, with no tick behind it.
+class LoopProbe:
+    """Runs the loop's own shell for some seconds at a time, in a process of its own.
 
-    A process of its own does it, for real-time conditions outlive the call that took them.
+    Real-time conditions outlive the call that took them, so they are taken there, once.
     """
 
-    def __init__(self, period_ns: int = 250_000, cpu: int | None = None) -> None:
-        self.period_ns = period_ns
-        self.cpu = cpu
+    def __init__(self, make: Make, period_ns: int, cpu: int | None = None) -> None:
+        self._arguments = (make, period_ns, cpu)
         self._pool = ProcessPoolExecutor(1, mp_context=get_context("spawn"))
 
     def __enter__(self) -> Self:
@@ -146,4 +164,4 @@ class WakeupProbe:
 
     def measure(self, seconds: float, margin_ns: int) -> LoopFigures:
         """The figures of so many seconds."""
-        return self._pool.submit(_measure, seconds, self.period_ns, margin_ns, self.cpu).result()
+        return self._pool.submit(_measure, *self._arguments, seconds, margin_ns).result()

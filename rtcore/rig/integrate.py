@@ -1,7 +1,7 @@
 """The plant over one tick, inputs held: classical Runge-Kutta, in steps as fine as each part needs.
 
-The valve depends on nothing behind it, so it moves first and finer: it has the stops and follows the jumps of
-the held command. Where the piston turns round within the tick, friction asks for finer steps of the rest.
+The valve depends on nothing behind it, so it moves first, and finer where it meets its stops. Where the piston
+turns round within the tick, friction asks for finer steps of the rest.
 """
 
 import numpy as np
@@ -48,23 +48,41 @@ def settle_gas(plant: Record, y: Array) -> None:
 
 
 @inlined
-def move_valve(
-    plant: Record, x_f: float, v_f: float, x_s: float, command: float, h: float, steps: int
-) -> tuple[float, float, float]:
-    """(x_f, v_f, x_s) after so many steps of `h` seconds."""
+def step_valve(
+    plant: Record, x_f: float, v_f: float, x_s: float, command: float, h: float
+) -> tuple[float, float, float, float]:
+    """(x_f, v_f, x_s) after one step of `h` seconds, and x_s at its middle (cubic Hermite, fourth order)."""
     half = 0.5 * h
-    for _ in range(steps):
-        a1, s1 = spool_motion(plant, x_f, v_f, x_s, command)
-        v2 = v_f + half * a1
-        a2, s2 = spool_motion(plant, x_f + half * v_f, v2, x_s + half * s1, command)
-        v3 = v_f + half * a2
-        a3, s3 = spool_motion(plant, x_f + half * v2, v3, x_s + half * s2, command)
-        v4 = v_f + h * a3
-        a4, s4 = spool_motion(plant, x_f + h * v3, v4, x_s + h * s3, command)
-        x_f += h / 6.0 * (v_f + 2.0 * (v2 + v3) + v4)
-        v_f += h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4)
-        x_s += h / 6.0 * (s1 + 2.0 * (s2 + s3) + s4)
-    return x_f, v_f, x_s
+    a1, s1 = spool_motion(plant, x_f, v_f, x_s, command)
+    v2 = v_f + half * a1
+    a2, s2 = spool_motion(plant, x_f + half * v_f, v2, x_s + half * s1, command)
+    v3 = v_f + half * a2
+    a3, s3 = spool_motion(plant, x_f + half * v2, v3, x_s + half * s2, command)
+    v4 = v_f + h * a3
+    a4, s4 = spool_motion(plant, x_f + h * v3, v4, x_s + h * s3, command)
+    x_end = x_s + h / 6.0 * (s1 + 2.0 * (s2 + s3) + s4)
+    f_end = x_f + h / 6.0 * (v_f + 2.0 * (v2 + v3) + v4)
+    v_end = v_f + h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4)
+    middle = 0.5 * (x_s + x_end) + 0.125 * h * (s1 - plant.spool_rate_m_s * f_end)
+    return f_end, v_end, x_end, middle
+
+
+@inlined
+def move_valve(
+    plant: Record, y: Array, command: float, h: float
+) -> tuple[float, float, float, float]:
+    """(x_f, v_f) after `h` seconds, and x_s half way and then."""
+    x_f, v_f, x_s = y[X_F], y[V_F], y[X_S]
+    if abs(x_f) < NEAR_STOP:
+        x_f, v_f, x_s, middle = step_valve(plant, x_f, v_f, x_s, command, h)
+        return x_f, v_f, middle, x_s
+    middle = x_s
+    fine = h / (2 * FINER_AT_STOP)
+    for i in range(2 * FINER_AT_STOP):
+        if i == FINER_AT_STOP:
+            middle = x_s
+        x_f, v_f, x_s, _ = step_valve(plant, x_f, v_f, x_s, command, fine)
+    return x_f, v_f, middle, x_s
 
 
 @inlined
@@ -85,10 +103,7 @@ def advance(
         substeps *= FINER_AT_TURN
     h = duration_s / substeps
     for _ in range(substeps):
-        steps = 1 if abs(y[X_F]) < NEAR_STOP else FINER_AT_STOP
-        fine = 0.5 * h / steps
-        x_f, v_f, x_half = move_valve(plant, y[X_F], y[V_F], y[X_S], u[U_VALVE], fine, steps)
-        x_f, v_f, x_end = move_valve(plant, x_f, v_f, x_half, u[U_VALVE], fine, steps)
+        x_f, v_f, x_half, x_end = move_valve(plant, y, u[U_VALVE], h)
 
         rig_derivatives(plant, y, y[X_S], u, q, k1)
         for i in range(REST, STATES):
