@@ -1,11 +1,12 @@
 // Which channels share a live chart. Measured is drawn in ink, commanded in the colour of commands, on every page.
 
+import type { ChannelName } from "../gen/channels";
 import type { ScaleOptions } from "./scale";
 
 export type Role = "measured" | "commanded" | "error";
 
 export interface SeriesInfo {
-  readonly channel: string;
+  readonly channel: ChannelName;
   readonly label: string;
   readonly role: Role;
   readonly off?: boolean;

@@ -1,6 +1,15 @@
 // Requests to /api/v1. Refusals are RFC 9457 problem documents; every failure becomes a `Problem` with a sentence.
 
-import type { RigCommand, RigEvent, Run, RunPage, RunSamples, TestSummary } from "./types";
+import type {
+  RigCommand,
+  RigEvent,
+  Run,
+  RunDetail,
+  RunEvents,
+  RunPage,
+  RunSamples,
+  TestSummary,
+} from "./types";
 
 export class Problem extends Error {
   constructor(
@@ -48,7 +57,7 @@ const post = (body: unknown): RequestInit => ({
 
 export const listTests = (): Promise<TestSummary[]> => request("tests");
 
-export const startRun = (test_id: number): Promise<Run> => request("runs", post({ test_id }));
+export const startRun = (test_id: string): Promise<Run> => request("runs", post({ test_id }));
 
 export const sendCommand = (command: RigCommand, options: RequestInit = {}): Promise<unknown> =>
   request("rig/commands", { ...post({ command }), ...options });
@@ -56,12 +65,10 @@ export const sendCommand = (command: RigCommand, options: RequestInit = {}): Pro
 export const listRuns = (before: number | null, limit = 50): Promise<RunPage> =>
   request(`runs?limit=${limit}${before === null ? "" : `&before=${before}`}`);
 
-export const getRun = (id: number): Promise<Run> => request(`runs/${id}`);
+export const getRun = (id: number): Promise<RunDetail> => request(`runs/${id}`);
 
-export async function listRunEvents(id: number): Promise<RigEvent[]> {
-  const answer = await request<RigEvent[] | { events: RigEvent[] }>(`runs/${id}/events`);
-  return Array.isArray(answer) ? answer : answer.events;
-}
+export const listRunEvents = async (id: number): Promise<readonly RigEvent[]> =>
+  (await request<RunEvents>(`runs/${id}/events`)).events;
 
 /** The samples of a run between two times, as extremes of at most `points` columns, or single ticks where they fit. */
 export function runSamples(

@@ -7,6 +7,7 @@ const GOOD: Signs = {
   samplesAt_s: 100,
   loopAlive: true,
   loopAge_s: 0.004,
+  loopStarting: false,
 };
 const at = (now_s: number, change: Partial<Signs> = {}): ReturnType<typeof judge> =>
   judge({ ...GOOD, ...change }, now_s);
@@ -33,6 +34,12 @@ describe("judge", () => {
     expect(at(100.05, { loopAlive: false, loopAge_s: 1.2 })).toMatchObject({ stale: true, trouble: "loop" });
     expect(at(100.05, { loopAge_s: 1.2 })).toMatchObject({ stale: true, trouble: "loop" });
     expect(at(100.05, { loopAlive: null })).toMatchObject({ stale: true, trouble: "loop" });
+  });
+
+  it("tells a loop that starts from one that died", () => {
+    const fresh = at(100.05, { loopAlive: false, loopAge_s: null, loopStarting: true });
+    expect(fresh).toMatchObject({ stale: true, trouble: "starting" });
+    expect(sentence(fresh)).toBe("No data yet: the loop process is starting");
   });
 
   it("says so before anything came", () => {

@@ -10,9 +10,11 @@ export interface Signs {
   /** From the last status. */
   readonly loopAlive: boolean | null;
   readonly loopAge_s: number | null;
+  /** The loop process was started and has not yet given a sign of life. */
+  readonly loopStarting: boolean;
 }
 
-export type Trouble = "connecting" | "link" | "loop" | "samples" | null;
+export type Trouble = "connecting" | "link" | "starting" | "loop" | "samples" | null;
 
 export interface Freshness {
   readonly stale: boolean;
@@ -28,6 +30,7 @@ export function judge(signs: Signs, now_s: number): Freshness {
   const loopAge = (signs.loopAge_s ?? 0) + sinceStatus;
   if (!signs.socketOpen || sinceStatus > STALE_AFTER_S)
     return { stale: true, trouble: "link", age_s: loopAge };
+  if (signs.loopStarting) return { stale: true, trouble: "starting", age_s: null };
   if (!signs.loopAlive || loopAge > STALE_AFTER_S) return { stale: true, trouble: "loop", age_s: loopAge };
   const sinceSamples = signs.samplesAt_s === null ? sinceStatus : now_s - signs.samplesAt_s;
   if (sinceSamples > STALE_AFTER_S) return { stale: true, trouble: "samples", age_s: sinceSamples };
@@ -37,6 +40,7 @@ export function judge(signs: Signs, now_s: number): Freshness {
 const WORDS: Record<Exclude<Trouble, null>, string> = {
   connecting: "connecting to the server",
   link: "link to the server lost",
+  starting: "the loop process is starting",
   loop: "loop process lost",
   samples: "the server sends no samples",
 };
@@ -49,7 +53,7 @@ export function sentence({ trouble, age_s }: Freshness): string {
 }
 
 function age(age_s: number): string {
-  if (age_s < 120) return `${Math.floor(age_s)} s`;
+  if (age_s < 120) return `${Math.max(1, Math.floor(age_s))} s`;
   if (age_s < 7200) return `${Math.floor(age_s / 60)} min`;
   return `${Math.floor(age_s / 3600)} h`;
 }

@@ -7,7 +7,7 @@ import { modeWords } from "./words";
 const FRESH: Freshness = { stale: false, trouble: null, age_s: 0.05 };
 const LOST: Freshness = { stale: true, trouble: "link", age_s: 3 };
 const STEP: TestSummary = {
-  id: 3,
+  id: "step-2-kn",
   name: "Step 2 kN",
   description: "",
   duration_s: 4,
@@ -69,7 +69,7 @@ describe("nextCommand", () => {
 
 describe("guidance", () => {
   it("says what to do, or why it cannot be done", () => {
-    expect(guidance(status("ready"), FRESH, STEP)).toBe("Press Start to run “Step 2 kN”.");
+    expect(guidance(status("ready"), FRESH, STEP)).toBe("Press Start to run this test.");
     expect(guidance(status("ready"), FRESH, null)).toBe("Choose a test first");
     expect(guidance(status("tripped", { reset: "Supply pressure still high" }), FRESH, null)).toBe(
       "Supply pressure still high",

@@ -23,6 +23,7 @@ export const STOP: CommandInfo = { command: "stop", label: "Stop", key: "Escape"
 const NO_DATA: Record<NonNullable<Freshness["trouble"]>, string> = {
   connecting: "No link to the server yet",
   link: "No link to the server",
+  starting: "The loop process is starting",
   loop: "The loop process is lost",
   samples: "No samples arrive",
 };
@@ -63,8 +64,6 @@ export function nextCommand(
 export function guidance(status: RigStatus | null, fresh: Freshness, chosen: TestSummary | null): string {
   if (status === null || fresh.stale) return "Commands wait until data arrive again. Stop is always sent.";
   const next = nextCommand(status, fresh, chosen);
-  const test = chosen === null ? "" : ` “${chosen.name}”`;
-  if (next === "start") return `Press Start to run${test}.`;
   if (next !== null) return SENTENCES[next] ?? "";
   const wanted = NEXT[status.mode];
   if (wanted !== undefined) return refusal(wanted, status, fresh, chosen) ?? "";
@@ -74,6 +73,7 @@ export function guidance(status: RigStatus | null, fresh: Freshness, chosen: Tes
 const SENTENCES: Partial<Record<Command, string>> = {
   reset: "Press Reset to clear the latch. Reset starts nothing.",
   pressurise: "Press Pressurise to bring up the supply.",
+  start: "Press Start to run this test.",
   resume: "Held. Press Resume to go on, or Stop to end the run.",
 };
 const WAITING: Partial<Record<Mode, string>> = {

@@ -1,31 +1,29 @@
 // What the pages know of the rig. Only what changes ten times a second or slower is reactive; samples are not.
 
+import { logged, type EventLog } from "./eventlog";
 import { judge, sentence, type Freshness, type Signs } from "./freshness";
 import { Link } from "./link";
+import { Misses } from "./misses";
 import { prepare, recentSpan, take, type Span } from "./samples";
-import type { Hello, RigEvent, RigStatus, ServerMessage } from "./types";
+import type { Hello, RigStatus, ServerMessage } from "./types";
 
-const EVENTS_KEPT = 200;
 const JUDGE_EVERY_MS = 100;
 const SPANS = ["force_n", "displacement_m", "velocity_m_s", "valve_command"] as const;
 const SPAN_S = 1;
-
-export interface LoggedEvent extends RigEvent {
-  serial: number;
-}
 
 const now_s = (): number => performance.now() / 1000;
 
 class Rig {
   status = $state.raw<RigStatus | null>(null);
   hello = $state.raw<Hello | null>(null);
-  /** Newest first, bounded. */
-  events = $state.raw<readonly LoggedEvent[]>([]);
+  events = $state.raw<EventLog>([]);
   /** Extremes of the last second, for the meters. */
   spans = $state.raw<Readonly<Record<string, Span>>>({});
   fresh = $state.raw<Freshness>({ stale: true, trouble: "connecting", age_s: null });
-  /** Frames that could not be read, and the last reason. */
-  unreadable = $state.raw({ frames: 0, detail: "" });
+  /** Why the last frame that could not be read could not; empty while all could. */
+  unreadable = $state("");
+  /** The loop missed deadlines within the last minute. */
+  missedLately = $state(false);
   /** Goes up each time the list of runs has changed. */
   runsVersion = $state(0);
 
@@ -37,8 +35,9 @@ class Rig {
     samplesAt_s: null,
     loopAlive: null,
     loopAge_s: null,
+    loopStarting: false,
   };
-  private serial = 0;
+  private readonly misses = new Misses();
   private link: Link | null = null;
 
   /** Connects, and keeps connecting. @returns a function that ends it. */
@@ -52,9 +51,7 @@ class Rig {
         take(frame);
         this.signs = { ...this.signs, samplesAt_s: now_s() };
       },
-      unreadable: (detail) => {
-        this.unreadable = { frames: this.unreadable.frames + 1, detail };
-      },
+      unreadable: (detail) => (this.unreadable = detail),
     });
     this.link = link;
     link.connect();
@@ -71,10 +68,9 @@ class Rig {
   private receive(message: ServerMessage): void {
     if (message.type === "status") this.takeStatus(message.status);
     else if (message.type === "hello") this.takeHello(message);
-    else if (message.type === "event") this.log(message.event);
+    else if (message.type === "event") this.events = logged(this.events, message.event);
     else if (message.type === "runs") this.runsVersion += 1;
-    else if (message.type === "error")
-      this.unreadable = { frames: this.unreadable.frames, detail: message.detail };
+    else if (message.type === "error") this.unreadable = message.detail;
   }
 
   private takeHello(hello: Hello): void {
@@ -86,13 +82,14 @@ class Rig {
 
   private takeStatus(status: RigStatus): void {
     this.status = status;
+    this.missedLately = this.misses.lately(status.loop.deadlines_missed, now_s());
     this.spans = Object.fromEntries(SPANS.map((channel) => [channel, recentSpan(channel, SPAN_S)]));
-    this.note({ statusAt_s: now_s(), loopAlive: status.loop.alive, loopAge_s: status.loop.data_age_s });
-  }
-
-  private log(event: RigEvent): void {
-    this.serial += 1;
-    this.events = [{ ...event, serial: this.serial }, ...this.events.slice(0, EVENTS_KEPT - 1)];
+    this.note({
+      statusAt_s: now_s(),
+      loopAlive: status.loop.alive,
+      loopAge_s: status.loop.data_age_s,
+      loopStarting: status.mode === "starting",
+    });
   }
 
   private note(signs: Partial<Signs>): void {

@@ -1,5 +1,6 @@
 // The live samples: plain typed arrays outside of Svelte's reactive state. Charts look here once a frame.
 
+import type { ChannelName } from "../gen/channels";
 import type { SampleFrame } from "./frame";
 import { SampleRing } from "./ring";
 import type { Hello } from "./types";
@@ -15,7 +16,7 @@ export const LIVE_CHANNELS = [
   "velocity_m_s",
   "valve_command",
   "spool_position",
-] as const;
+] as const satisfies readonly ChannelName[];
 
 export interface LiveSamples {
   ring: SampleRing;

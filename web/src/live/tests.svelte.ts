@@ -7,7 +7,7 @@ import type { TestSummary } from "./types";
 
 class Tests {
   list = $state.raw<readonly TestSummary[] | null>(null);
-  chosenId = $state<number | null>(null);
+  chosenId = $state<string | null>(null);
   failure = $state("");
 
   readonly chosen = $derived(this.list?.find((test) => test.id === this.chosenId) ?? null);

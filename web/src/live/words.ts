@@ -11,6 +11,7 @@ const MODES: Record<Mode, string> = {
   running: "Running",
   holding: "Holding",
   stopping: "Stopping",
+  starting: "Starting",
   lost: "Loop lost",
 };
 
@@ -25,6 +26,7 @@ const ACTIVE: ReadonlySet<Mode> = new Set(["pressurising", "running", "holding",
 export function modeWords(status: RigStatus | null, fresh: Freshness): ModeWords {
   if (fresh.trouble === "connecting") return { text: "Connecting", tone: "stale" };
   if (fresh.trouble === "link") return { text: "Link lost", tone: "stale" };
+  if (fresh.trouble === "starting") return { text: MODES.starting, tone: "stale" };
   if (fresh.trouble === "loop" || status === null) return { text: MODES.lost, tone: "stale" };
   const tone = status.mode === "tripped" ? "trip" : ACTIVE.has(status.mode) ? "active" : "plain";
   return { text: MODES[status.mode] ?? status.mode, tone: status.mode === "lost" ? "stale" : tone };
