@@ -3,11 +3,16 @@
 import json
 import platform
 import sys
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from rich.console import Console
+from rich.progress import track
 from rich.table import Table
+
+T = TypeVar("T")
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
 _PREFIXED = frozenset({"s", "Hz", "B", "B/s", "1/s"})
@@ -15,7 +20,7 @@ _PREFIXED = frozenset({"s", "Hz", "B", "B/s", "1/s"})
 
 @dataclass(frozen=True)
 class Figure:
-    """One measured value in SI; `None` says that it could not be measured.
+    """One measured value in SI; None where there is none, and then `note` says why.
 
     `name` is a key for programs, with its unit last (`wakeup_median_s`); `what` is for people.
     A figure with neither limit is for information. A ratio has the unit "×".
@@ -47,7 +52,7 @@ class Figure:
 def quantity(value: float | None, unit: str) -> str:
     """A value with its unit, to three digits: 2.1e-6 s is "2.10 µs"."""
     if value is None:
-        return "not measured"
+        return "—"
     if unit in _PREFIXED and value != 0:
         scale, prefix = next((p for p in _PREFIXES if abs(value) >= p[0]), _PREFIXES[-1])
         return f"{digits(value / scale)} {prefix}{unit}"
@@ -56,7 +61,7 @@ def quantity(value: float | None, unit: str) -> str:
 
 def digits(value: float) -> str:
     """Three significant digits, never in powers of ten; whole numbers as they are."""
-    if value == int(value) or abs(value) >= 100:
+    if abs(value) >= 100 or abs(value - round(value)) < 1e-9:
         return f"{value:.0f}"
     return f"{value:.2f}" if abs(value) < 10 else f"{value:.1f}"
 
@@ -98,3 +103,8 @@ def show(bench: str, figures: list[Figure], notes: list[str], as_json: bool) -> 
 def progress(message: str) -> None:
     """Say what goes on, on standard error: standard output is for the figures alone."""
     print(message, file=sys.stderr, flush=True)
+
+
+def tracked(items: Sequence[T], what: str) -> Iterable[T]:
+    """The items, with a bar on standard error that tells the time left."""
+    return track(items, what, console=Console(stderr=True), transient=True)

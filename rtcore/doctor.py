@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-from rtcore.latency import Counts, Idle, LoopFigures, LoopProbe, longest_s, quantile_s
+from rtcore.latency import RANGE_US, Counts, Idle, LoopFigures, LoopProbe, longest_s, quantile_s
 from rtcore.machine import Finding, Grade, findings, processor_line, stolen_share
 from rtcore.realtime import Condition, allowed_cpus
 
@@ -22,7 +22,7 @@ MARGIN_NS = 60_000
 VERY_GOOD_S, POOR_S = 20e-6, 100e-6  # LinuxCNC's guide to jitter
 MISSED_UNFIT = 0.01  # share of deadlines
 STOLEN_LIMITED = 0.001
-EDGES_US = (0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 999)
+EDGES_US = (0, 1, 2, 5, 10, 20, 50, 100, 200, 500, RANGE_US)
 
 ADVICE = {
     "affinity": "let this process use more than one processor (taskset, cpuset)",
@@ -114,7 +114,7 @@ def verdict_of(found: list[Finding]) -> tuple[Verdict, str]:
 
 def in_us(time_s: float | None) -> str:
     """A time of a histogram in µs; None is what lies beyond its bins."""
-    return "over 999 µs" if time_s is None else f"{time_s * 1e6:.1f} µs"
+    return f"over {RANGE_US} µs" if time_s is None else f"{time_s * 1e6:.1f} µs"
 
 
 def grouped(counts: Counts) -> list[tuple[str, int]]:

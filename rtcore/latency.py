@@ -1,13 +1,11 @@
 """Figures of a loop's timing: quantiles of its histograms, and a probe that measures some."""
 
-import json
 import signal
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
 from multiprocessing import get_context
-from pathlib import Path
 from typing import Protocol, Self
 
 import numpy as np
@@ -15,11 +13,12 @@ import numpy.typing as npt
 
 from rtcore.clock import now_ns, wait_until
 from rtcore.loop import account, keep_time, warm_up
-from rtcore.memory.layout import HISTOGRAM_BIN_S
-from rtcore.memory.segment import Block, attach_block, private_block
+from rtcore.memory.layout import HISTOGRAM_BIN_S, HISTOGRAM_BINS
+from rtcore.memory.segment import Block, private_block
 from rtcore.realtime import Condition, take_all
 
 Counts = npt.NDArray[np.int64]
+RANGE_US = HISTOGRAM_BINS - 1  # what is longer lies in the last bin
 
 
 @dataclass(frozen=True)
@@ -81,13 +80,6 @@ def figures_of(block: Block, conditions: tuple[Condition, ...]) -> LoopFigures:
         int(fields["snapshot"]["deadlines_missed"]),
         conditions,
     )
-
-
-def read_figures(path: Path) -> LoopFigures:
-    """The figures of the loop whose block is at `path`. Raises `BlockError`."""
-    block = attach_block(path)
-    conditions = json.loads(block.fields["conditions"] or b"[]")
-    return figures_of(block, tuple(Condition(**condition) for condition in conditions))
 
 
 class Bound(Protocol):

@@ -152,6 +152,25 @@ def _processor_quota(root: Path) -> Finding:
     return Finding("processor_quota", limits[0], Grade.LIMITED, advice)
 
 
+def realtime_tasks(root: Path = ROOT) -> list[str]:
+    """Programs that are scheduled before all ordinary ones, in words; the kernel's own left out."""
+    found = []
+    for file in sorted((root / "proc").glob("[0-9]*/stat")):
+        name, _, rest = (first_line(file) or "").partition("(")[2].rpartition(")")
+        values = rest.split()  # from field 3 of proc(5) on
+        if len(values) > 38 and int(values[37]) > 0 and int(values[20]) > 0:
+            found.append(f"{name} ({file.parent.name}) on CPU {values[36]}")
+    return found
+
+
+def _other_realtime_tasks(root: Path) -> Finding:
+    found = realtime_tasks(root)
+    if not found:
+        return Finding("other_realtime_tasks", "none", Grade.GOOD)
+    advice = "end them, or keep them off the loop's processor: they go before it or beside it"
+    return Finding("other_realtime_tasks", ", ".join(found), Grade.LIMITED, advice)
+
+
 CHECKS: tuple[Callable[[Path], Finding], ...] = (
     _preemption,
     _virtual_machine,
@@ -163,6 +182,7 @@ CHECKS: tuple[Callable[[Path], Finding], ...] = (
     _frequency_governor,
     _throttling,
     _processor_quota,
+    _other_realtime_tasks,
 )
 
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import pytest
 
-from rtcore.machine import Grade, findings, stolen_share
+from rtcore.machine import Grade, findings, realtime_tasks, stolen_share
 
 FIT = {
     "proc/version": "Linux version 6.12.9-rt (x) #1 SMP PREEMPT_RT Debian",
@@ -46,7 +46,19 @@ class Case(NamedTuple):
 
 CPU = "sys/devices/system/cpu"
 CLOCK = "sys/devices/system/clocksource/clocksource0/current_clocksource"
+
+
+def task(priority: int, memory_bytes: int = 4096) -> str:
+    """A line of /proc/77/stat of a program on processor 1, see proc(5)."""
+    values = {3: "S", 23: memory_bytes, 39: 1, 40: priority}
+    rest = " ".join(str(values.get(field, 0)) for field in range(3, 53))
+    return f"77 (a (b) c) {rest}"
+
+
 CASES = [
+    Case("proc/77/stat", task(priority=80), "other_realtime_tasks", Grade.LIMITED),
+    Case("proc/77/stat", task(priority=0), "other_realtime_tasks", Grade.GOOD),
+    Case("proc/77/stat", task(priority=99, memory_bytes=0), "other_realtime_tasks", Grade.GOOD),
     Case("proc/version", "Linux #1 SMP PREEMPT_DYNAMIC", "preemption", Grade.LIMITED),
     Case("proc/cpuinfo", "flags : fpu hypervisor", "virtual_machine", Grade.LIMITED),
     Case("proc/cpuinfo", "Features : fp asimd", "virtual_machine", Grade.UNKNOWN),
@@ -81,6 +93,11 @@ def test_a_limit_comes_with_advice(tmp_path: Path) -> None:
     limited = [finding for finding in findings(tmp_path) if finding.grade == Grade.LIMITED]
     assert limited
     assert all(finding.advice for finding in limited)
+
+
+def test_a_realtime_task_is_named(tmp_path: Path) -> None:
+    grades(tmp_path, {**FIT, "proc/77/stat": task(priority=80)})
+    assert realtime_tasks(tmp_path) == ["a (b) c (77) on CPU 1"]
 
 
 def test_stolen_time_is_a_share_of_all_time_that_went_by() -> None:
