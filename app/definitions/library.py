@@ -14,8 +14,9 @@ _SUFFIX = ".yaml"
 def library() -> dict[str, Definition]:
     """Every example by its id, in the order of their ids. An example that is refused is a bug."""
     folder = files("app.library")
-    names = sorted(entry.name for entry in folder.iterdir() if entry.name.endswith(_SUFFIX))
-    return {name.removesuffix(_SUFFIX): _read(name) for name in names}
+    names = [entry.name for entry in folder.iterdir() if entry.name.endswith(_SUFFIX)]
+    ids = sorted(name.removesuffix(_SUFFIX) for name in names)
+    return {test_id: _read(test_id + _SUFFIX) for test_id in ids}
 
 
 def library_text(test_id: str) -> str:

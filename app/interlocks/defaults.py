@@ -16,7 +16,7 @@ _ROWS = (
     ("force", Quantity.FORCE_N, _MAGNITUDE, 55e3, 0.0, _SHUTDOWN, PRESSURISED),
     ("force_error", Quantity.FORCE_ERROR_N, _MAGNITUDE, 15e3, 0.05, _STOP, IN_A_TEST),
     ("displacement", Quantity.DISPLACEMENT_M, _MAGNITUDE, 0.032, 0.0, _STOP, PRESSURISED),
-    ("velocity", Quantity.VELOCITY_M_S, _MAGNITUDE, 0.3, 0.005, _STOP, PRESSURISED),
+    ("velocity", Quantity.VELOCITY_M_S, _MAGNITUDE, 0.4, 0.01, _STOP, PRESSURISED),
     ("sensor_faults", Quantity.SENSOR_FAULTS, _ABOVE, 0.5, 0.0, _SHUTDOWN, PRESSURISED),
     ("supply_pressure", Quantity.SUPPLY_PRESSURE_PA, _BELOW, 15e6, 0.05, _STOP, LOADABLE),
     ("app_silence", Quantity.APP_SILENCE_S, _ABOVE, 0.5, 0.0, _STOP, PRESSURISED),

@@ -6,31 +6,33 @@ from typing import Any
 from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
+from app.documents.fields import wrong
+from app.documents.messages import nearest
+
 
 class ByName:
     """Annotates an IntEnum that documents write as the lower-case name of its member."""
 
     def __init__(self, members: type[IntEnum]) -> None:
-        self.members = members
-        self.names = [member.name.lower() for member in members]
+        self.type = members
+        self.members = {member.name.lower(): member for member in members}
+
+    def read(self, value: Any) -> IntEnum:
+        """The member of this name, or the member itself."""
+        if isinstance(value, str) and value in self.members:
+            return self.members[value]
+        if isinstance(value, self.type):
+            return value
+        guess = nearest(value, self.members) if isinstance(value, str) else ""
+        raise wrong("", f"must be one of {', '.join(self.members)}{guess}", value=value)
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
-        words = core_schema.no_info_after_validator_function(
-            lambda name: self.members[name.upper()], core_schema.literal_schema(self.names)
-        )
-        return core_schema.json_or_python_schema(
-            json_schema=words,
-            python_schema=core_schema.union_schema(
-                [core_schema.is_instance_schema(self.members), words]
-            ),
-            serialization=core_schema.plain_serializer_function_ser_schema(
-                lambda member: member.name.lower()
-            ),
-        )
+        written = core_schema.plain_serializer_function_ser_schema(lambda m: m.name.lower())
+        return core_schema.no_info_plain_validator_function(self.read, serialization=written)
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
-        return {"type": "string", "enum": self.names}
+        return {"type": "string", "enum": list(self.members)}
