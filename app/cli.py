@@ -1,0 +1,97 @@
+"""The command line, `forcerig`. Each command imports what it needs: `--help` is quick."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+cli = typer.Typer(
+    help="Operator console of a servo-hydraulic force-control test rig.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+)
+database = typer.Typer(help="The database of the console.", no_args_is_help=True)
+cli.add_typer(database, name="db")
+
+Test = Annotated[str, typer.Argument(help="A YAML or JSON file, or the id of a library test.")]
+Json = Annotated[bool, typer.Option("--json", help="One JSON document on standard output.")]
+Data = Annotated[
+    Path | None, typer.Option("--data", help="Where its state is kept.", show_default="data")
+]
+RigFile = Annotated[Path | None, typer.Option(help="Rig parameters that differ from the shipped.")]
+Settings = Annotated[Path | None, typer.Option(help="Controller settings; as shipped without.")]
+OutFile = Annotated[Path | None, typer.Option(help="Write all channels to this Parquet file.")]
+Report = Annotated[Path | None, typer.Option(help="Not available yet.")]
+Seed = Annotated[int, typer.Option(min=0, help="Of the sensors' noise.")]
+Host = Annotated[str | None, typer.Option(help="Address to listen on.", show_default="127.0.0.1")]
+Port = Annotated[
+    int | None,
+    typer.Option(min=0, max=65535, help="0 takes any free one.", show_default="8000"),
+]
+
+
+@cli.command()
+def check(test: Test, json: Json = False) -> None:
+    """Validate a test, and print its blocks, durations, cycles and peaks."""
+    from app.commands.check import check as run
+
+    raise typer.Exit(run(test, json))
+
+
+@cli.command()
+def simulate(
+    test: Test,
+    rig: RigFile = None,
+    controller: Settings = None,
+    seed: Seed = 1,
+    out: OutFile = None,
+    report: Report = None,
+    json: Json = False,
+) -> None:
+    """Run a test on the virtual rig, measure and judge it.
+
+    Ends with 0 passed, 1 failed acceptance, 2 bad input, 3 tripped.
+    """
+    from app.commands.simulate import Request, run
+
+    raise typer.Exit(run(Request(test, rig, controller, seed, out, report, json)))
+
+
+@cli.command()
+def serve(host: Host = None, port: Port = None, data: Data = None) -> None:
+    """Start the console and the loop. What is not given may come from FORCERIG_HOST and so on."""
+    from app.main import serve as run
+
+    run(host, port, data)
+
+
+@cli.command()
+def doctor(json: Json = False) -> None:
+    """Say whether this machine is fit for real time."""
+    from rtcore.doctor import main as run
+
+    raise typer.Exit(run(json))
+
+
+@cli.command()
+def bench(
+    name: Annotated[str, typer.Argument(help="Its name, or all.")] = "all", json: Json = False
+) -> None:
+    """Run the benchmarks."""
+    from app.commands.bench import run
+
+    raise typer.Exit(run(name, json))
+
+
+@database.command()
+def upgrade(data: Data = None) -> None:
+    """Bring the database to the present revision."""
+    from app.db import upgrade as run
+    from app.settings import Settings
+
+    run(Settings().data_dir if data is None else data)
+
+
+def main() -> None:
+    """The entry point of `forcerig`."""
+    cli()

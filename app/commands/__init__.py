@@ -1,0 +1,1 @@
+"""The commands of `forcerig`; `app.cli` says which there are. Imported when one is given."""

@@ -1,0 +1,1 @@
+"""A test on the virtual rig: the very tick of the loop, as fast as the processor goes."""

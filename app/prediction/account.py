@@ -1,0 +1,64 @@
+"""A simulation told as plain data: for `--json`, and for the metadata of its file."""
+
+import math
+from typing import Any
+
+from app.settings import VERSION
+from app.analysis.measurements import MEASUREMENTS
+from app.definitions.limits import RIG
+from app.documents.writing import to_data
+from app.prediction.simulation import Simulation
+
+
+def account(simulation: Simulation) -> dict[str, Any]:
+    """What came of it, in types that JSON knows."""
+    run, judged = simulation.run, simulation.judged
+    return {
+        "test": simulation.setup.definition.name,
+        "outcome": run.ending.outcome.value,
+        "reason": run.ending.reason,
+        "verdict": judged.verdict.value,
+        "ticks": len(run.records),
+        "duration_s": len(run.records) * RIG.period_s,
+        "seed": simulation.setup.seed,
+        "measurements": [
+            {"name": name, "unit": MEASUREMENTS[name].unit, "value": _finite(value)}
+            for name, value in judged.measurements.items()
+        ],
+        "acceptance": [
+            {
+                "measurement": c.measurement,
+                "unit": c.unit,
+                "value": _finite(c.value),
+                "at_least": c.at_least,
+                "at_most": c.at_most,
+                "outcome": c.outcome.value,
+            }
+            for c in judged.criteria
+        ],
+        "events": [
+            {"tick": e.tick, "time_s": e.time_s, "kind": e.kind, "code": e.code, "text": e.text}
+            for e in run.events
+        ],
+    }
+
+
+def metadata(simulation: Simulation) -> dict[str, Any]:
+    """What its file is to remember: everything that it was made with, and what came of it."""
+    setup = simulation.setup
+    return {
+        "clock": "virtual",
+        "test_name": setup.definition.name,
+        "definition": to_data(setup.definition),
+        "controller": to_data(setup.controller),
+        "interlocks": to_data(setup.interlocks),
+        "rig": setup.rig.model_dump(mode="json"),
+        "seed": setup.seed,
+        "software_version": VERSION,
+        "period_ns": round(RIG.period_s * 1e9),
+        **account(simulation),
+    }
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None

@@ -1,0 +1,74 @@
+"""A run that was held is measured as if it had not been: what was held is no data."""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from app.analysis.evidence import gather
+from app.controller.record import to_record as gains_record
+from app.controller.settings import ControllerSettings
+from app.definitions.definition import Definition
+from app.definitions.expansion import expand
+from app.definitions.limits import RIG
+from app.definitions.outline import outline
+from app.definitions.reading import definition_from
+from app.definitions.windows import windows
+from app.interlocks.defaults import default_interlocks
+from app.interlocks.record import to_record as interlocks_record
+from rtcore.codes import Opcode, Reply
+from rtcore.virtual import Virtual
+
+HARMONIC = {"kind": "harmonic", "amplitude_n": 1000, "frequency_hz": 20, "cycles": 30}
+
+
+def _definition() -> Definition:
+    ramp = {"kind": "ramp", "to_n": 500, "rate_n_s": 1000}
+    definition = definition_from({"schema": 1, "name": "held", "blocks": [ramp, HARMONIC]})
+    assert isinstance(definition, Definition), definition.detail
+    return definition
+
+
+def _records(definition: Definition, holds: list[tuple[int, int]]) -> npt.NDArray[Any]:
+    """All ticks of a run that is held: (ticks before the hold, ticks held) after one another."""
+    interlocks = interlocks_record(default_interlocks(), RIG.period_s)
+    virtual = Virtual(gains_record(ControllerSettings()), interlocks)
+    virtual.bring_to_ready()
+    assert virtual.load_program(expand(definition)) == Reply.ACCEPTED
+    first = virtual.tick
+    parts = [_commanded(virtual, Opcode.START, 1)]
+    for before, held in holds:
+        parts.append(virtual.advance(before))
+        parts.append(_commanded(virtual, Opcode.HOLD, 0))
+        parts.append(virtual.advance(held))
+        parts.append(_commanded(virtual, Opcode.RESUME, 0))
+    parts.append(virtual.advance(round(outline(definition).duration_s / RIG.period_s) + 4000))
+    records = np.concatenate(parts)
+    assert np.array_equal(records["tick"], first + np.arange(len(records)))
+    return records[records["run"] == 1]
+
+
+def _commanded(virtual: Virtual, opcode: Opcode, argument: int) -> npt.NDArray[Any]:
+    """Give a command; the record of the tick that obeyed it."""
+    assert virtual.command(opcode, argument) == Reply.ACCEPTED
+    ring = virtual.block.ring
+    last = (virtual.tick - 1) % len(ring)
+    return np.array(ring[last : last + 1])
+
+
+def test_every_tick_of_the_program_is_found_once_and_in_its_place() -> None:
+    definition = _definition()
+    whole = _records(definition, [])
+    held = _records(definition, [(900, 3000), (1500, 20), (2000, 1500)])
+    assert len(held) > len(whole) + 4500
+    found = windows(definition, len(held))
+    expected = gather(whole, found, RIG.period_s)
+    evidence = gather(held, found, RIG.period_s)
+    assert evidence.program_ticks.tolist() == list(range(found.ticks))
+    assert expected.program_ticks.tolist() == list(range(found.ticks))
+    commanded = evidence.records["force_command_n"], expected.records["force_command_n"]
+    # after a hold the oscillator has run on, so only the mean and the count are where they were
+    assert np.array_equal(evidence.records["cycle"], expected.records["cycle"])
+    assert np.array_equal(evidence.records["block"], expected.records["block"])
+    assert np.array_equal(commanded[0][:2000], commanded[1][:2000])
+    assert np.count_nonzero(evidence.data_mask) == 30 * 200
