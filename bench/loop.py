@@ -18,8 +18,8 @@ from rtcore.realtime import allowed_cpus
 
 PERIODS_NS = (250_000, 100_000)
 MARGIN_NS = 60_000
-SLICES = 4
-SLICE_S = 1.7
+SLICES = 14
+SLICE_S = 0.5
 
 MEDIAN_AT_MOST_S = 2e-6
 RATIO_AT_MOST = 1.15
@@ -94,6 +94,7 @@ def figures_of(period_ns: int, measured: Measured) -> Iterator[Figure]:
     yield time("sleep_wakeup_median", "wake-up, no margin, median", bare_s)
     yield time("sleep_wakeup_p99", "wake-up, no margin, 99 %", quantile_s(bare.wakeup, 0.99))
     yield time("sleep_wakeup_longest", "wake-up, no margin, longest", longest_s(bare.wakeup))
+    yield late_by_a_period(f"{key}_sleep", f"{at}: no margin", bare.wakeup, period_ns)
     counts = measured.cyclictest
     if counts is not None:
         yardstick_s = quantile_s(counts, 0.5)
@@ -101,6 +102,7 @@ def figures_of(period_ns: int, measured: Measured) -> Iterator[Figure]:
         yield time("cyclictest_median", "cyclictest, median", yardstick_s)
         yield time("cyclictest_p99", "cyclictest, 99 %", quantile_s(counts, 0.99))
         yield time("cyclictest_longest", "cyclictest, longest", longest_s(counts))
+        yield late_by_a_period(f"{key}_cyclictest", f"{at}: cyclictest", counts, period_ns)
         yield Figure(
             f"{key}_sleep_to_cyclictest_ratio",
             f"{at}: median without margin / cyclictest's",
@@ -116,6 +118,13 @@ def figures_of(period_ns: int, measured: Measured) -> Iterator[Figure]:
     )
     yield time("tick_time_p99", "whole tick, 99 %", quantile_s(margin.tick_time, 0.99))
     yield from counted(key, at, margin)
+
+
+def late_by_a_period(key: str, of: str, counts: Counts, period_ns: int) -> Figure:
+    """How often a task that only sleeps slept past a whole period: what the machine itself does."""
+    late = int(counts[period_ns // 1000 :].sum())
+    note = f"of {int(counts.sum())} wake-ups"
+    return Figure(f"{key}_late_by_a_period", f"{of}, a period late or more", late, "", note=note)
 
 
 def counted(key: str, at: str, figures: LoopFigures) -> Iterator[Figure]:

@@ -89,6 +89,14 @@ def test_figures_are_medians_and_their_ratio_with_targets() -> None:
     assert figures["at_4000_hz_deadlines_missed"].note == "of 1005 deadlines"
 
 
+def test_wake_ups_a_period_late_are_counted_beside_those_of_cyclictest() -> None:
+    with_late = counts(20) + counts(99, 7) + counts(100, 3) + counts(HISTOGRAM_BINS - 1, 2)
+    measured = Measured(loop(1, 8), loop(101, 8), with_late)
+    figures = {f.name: f for f in figures_of(100_000, measured)}
+    assert figures["at_10000_hz_sleep_late_by_a_period"].value == 1000
+    assert figures["at_10000_hz_cyclictest_late_by_a_period"].value == 5
+
+
 def test_targets_can_be_missed() -> None:
     slow = Measured(loop(2, 12), loop(24, 12), counts(20))
     missed = {f.name for f in figures_of(100_000, slow) if f.met is False}
