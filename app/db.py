@@ -46,7 +46,7 @@ class UtcDateTime(TypeDecorator[datetime]):
 def _prepare_sqlite(engine: Engine) -> None:
     @event.listens_for(engine, "connect")
     def _connected(connection: sqlite3.Connection, record: object) -> None:
-        connection.isolation_level = None  # or sqlite3 would commit before each CREATE TABLE
+        connection.isolation_level = None  # SQLAlchemy alone says when one begins
         for pragma in _PRAGMAS:
             connection.execute(pragma)
 

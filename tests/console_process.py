@@ -64,7 +64,9 @@ class ConsoleProcess:
                 [sys.executable, "-c", _SERVE], env=self._environment, stdout=log, stderr=log
             )
         pattern = re.compile(r"forcerig console: (\S+)/\n")
-        found = wait_for(lambda: pattern.search(self.said(), already_said), "its address")
+        found = wait_for(
+            lambda: self._lives() and pattern.search(self.said(), already_said), "its address"
+        )
         self.url = found.group(1)
         self.http = httpx2.Client(base_url=f"{self.url}/api/v1", timeout=30)
         wait_for(self.answers, "an answer")
@@ -76,10 +78,14 @@ class ConsoleProcess:
         """Everything that it has logged."""
         return self._log.read_text() if self._log.exists() else ""
 
-    def answers(self) -> bool:
-        """Whether it answers at all."""
+    def _lives(self) -> bool:
         assert self._process is not None
         assert self._process.poll() is None, self.said()
+        return True
+
+    def answers(self) -> bool:
+        """Whether it answers at all."""
+        assert self._lives()
         try:
             self.http.get("/channels")
         except httpx2.TransportError:
@@ -94,6 +100,11 @@ class ConsoleProcess:
     def kill(self) -> None:
         """kill -9 of the app."""
         self._end(signal.SIGKILL)
+
+    def signal(self, number: int) -> None:
+        """Send the app a signal."""
+        assert self._process is not None
+        self._process.send_signal(number)
 
     def stop(self) -> int:
         """SIGTERM to the app; returns its exit status."""

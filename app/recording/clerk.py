@@ -15,7 +15,7 @@ from typing import Any, NamedTuple, Protocol
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.link.events import LoopEvent
-from app.recording.files import convert, remove_parts
+from app.recording.files import convert, keep_parts, remove_parts
 from app.recording.outcome import Ending
 from app.recording.run_file import Recorded
 
@@ -95,10 +95,11 @@ class Clerk:
 
     def _end(self, run_id: int, recorded: Recorded, ending: Ending) -> None:
         folder = self._runs_dir / str(run_id)
+        kept = recorded
         if recorded.ticks:
-            convert(folder, self._book.frozen(run_id), recorded, ending)
-        self._book.ended(run_id, recorded, ending)
-        remove_parts(folder)
+            kept = convert(folder, self._book.frozen(run_id), recorded, ending)
+        self._book.ended(run_id, kept, ending)
+        (remove_parts if kept == recorded else keep_parts)(folder)
         self._ending.discard(run_id)
         _log.info("run %d: %s, %d ticks", run_id, ending.outcome, recorded.ticks)
 

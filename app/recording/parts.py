@@ -80,13 +80,15 @@ def read_part(path: Path, *, verify: bool = True) -> Iterator[Any]:
     try:
         source = pa.memory_map(str(path))
         stream = pa.ipc.open_stream(source)
-    except (pa.ArrowInvalid, OSError):
+    except (pa.ArrowException, OSError):
+        return
+    if not stream.schema.equals(SCHEMA):
         return
     while True:
         try:
             batch, metadata = stream.read_next_batch_with_custom_metadata()
             batch.validate()
-        except (StopIteration, pa.ArrowInvalid, OSError):
+        except (StopIteration, pa.ArrowException, OSError):
             return
         if verify and (metadata is None or metadata.get(_CHECKSUM) != _checksum(batch)):
             return

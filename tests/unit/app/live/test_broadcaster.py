@@ -37,12 +37,13 @@ class Ear(Client):
 
 
 def no_status() -> RigStatus:
-    return RigStatus.model_construct()
+    raise AssertionError("nobody asked for it")
 
 
 @pytest.fixture
 def loop() -> WrittenBlock:
     written = WrittenBlock()
+    written.go(Mode.OFF)  # before anybody listened
     written.ticks(50)
     return written
 

@@ -79,6 +79,7 @@ def test_runs_in_one_drain_are_kept_apart(
         book.enter(run)
         loop.whole_run(run, 100)
     desk.drain()
+    assert book.ended_in_order == [1, 2, 3]
     for run in (1, 2, 3):
         first = 10 + 120 * (run - 1)
         assert np.array_equal(recorded_ticks(tmp_path, run), np.arange(first, first + 100))
@@ -174,6 +175,7 @@ def test_what_is_finished_is_not_recorded_again(
     after.drain()
     after.end_unseen()
     assert np.array_equal(recorded_ticks(tmp_path, 1), np.arange(10, 110))
+    assert book.ended_in_order == [1, 2]
     assert book.ends[2][1].outcome is Outcome.FAILED
 
 
@@ -187,13 +189,15 @@ def test_a_lapped_ring_leaves_a_gap_that_is_counted_and_marked(
     desk.drain()
     loop.ticks(LONGER_THAN_THE_RING, run=1)
     desk.drain()
+    kept = len(loop.block.ring) - 1
+    assert desk.tape.current is not None
+    assert desk.tape.current.missing_ticks == LONGER_THAN_THE_RING - kept
     loop.report(EventKind.PROGRAM_ENDED, 1)
     loop.go(Mode.READY)
     loop.ticks(1)
     desk.drain()
     recorded, _ = book.ends[1]
     ticks = recorded_ticks(tmp_path, 1)
-    kept = len(loop.block.ring) - 1
     assert len(ticks) == 100 + kept
     assert recorded.missing_ticks == LONGER_THAN_THE_RING - kept
     gaps = [event for event in book.events[1].values() if event.kind == "gap"]
@@ -252,6 +256,29 @@ def test_both_dead_and_the_block_left_over(
     after.finish()
     assert np.array_equal(recorded_ticks(tmp_path, 1), np.arange(150))
     assert book.ends[1][1].outcome is Outcome.INTERRUPTED
+
+
+def test_what_the_disk_did_not_keep_is_counted_as_missing(
+    loop: WrittenBlock, book: PaperBook, tmp_path: Path
+) -> None:
+    desk = Desk(loop, tmp_path, book)
+    book.enter(1)
+    loop.begin(1)
+    for _ in range(4):
+        loop.ticks(50, run=1)
+        desk.drain()
+    (part,) = part_paths(tmp_path / "1")
+    content = bytearray(part.read_bytes())
+    content[len(content) * 5 // 8] ^= 1
+    part.write_bytes(content)
+    loop.report(EventKind.PROGRAM_ENDED, 1)
+    loop.go(Mode.READY)
+    loop.ticks(1)
+    desk.drain()
+    recorded, _ = book.ends[1]
+    assert np.array_equal(recorded_ticks(tmp_path, 1), np.arange(100))
+    assert (recorded.ticks, recorded.missing_ticks) == (100, 100)
+    assert len(list((tmp_path / "1").glob("*.damaged"))) == 1
 
 
 def test_a_detector_that_only_indicates_does_not_end_a_run(
