@@ -4,7 +4,15 @@ import { COMMANDS } from "./live/operate";
 import { routeOf } from "./router";
 
 const press = (key: string, change: Partial<Press> = {}): ReturnType<typeof actionOf> =>
-  actionOf({ key, repeat: false, modified: false, typing: false, singleKeys: true, ...change });
+  actionOf({
+    key,
+    repeat: false,
+    modified: false,
+    typing: false,
+    operating: true,
+    singleKeys: true,
+    ...change,
+  });
 
 describe("actionOf", () => {
   it("stops on Escape, from anywhere but a text field, where it first leaves the field", () => {
@@ -23,6 +31,13 @@ describe("actionOf", () => {
     for (const change of [{ typing: true }, { repeat: true }, { modified: true }, { singleKeys: false }]) {
       for (const { key } of [...COMMANDS, ...VIEW_KEYS]) expect(press(key, change)).toBeNull();
     }
+  });
+
+  it("gives commands only where they can be seen, and stops everywhere", () => {
+    expect(press("s", { operating: false })).toBeNull();
+    expect(press("f", { operating: false })).toBeNull();
+    expect(press("1", { operating: false })).toEqual({ kind: "operate" });
+    expect(press("Escape", { operating: false })).toEqual({ kind: "stop" });
   });
 
   it("has each key once", () => {

@@ -19,8 +19,8 @@ export interface KeyInfo {
 export const VIEW_KEYS: readonly KeyInfo[] = [
   { key: "a", does: "Acknowledge trips", action: { kind: "acknowledge" } },
   { key: "f", does: "Freeze or run the charts", action: { kind: "pause" } },
-  { key: "[", does: "Shorter chart window", action: { kind: "shorter" } },
-  { key: "]", does: "Longer chart window", action: { kind: "longer" } },
+  { key: "+", does: "Shorter chart window", action: { kind: "shorter" } },
+  { key: "-", does: "Longer chart window", action: { kind: "longer" } },
   { key: "1", does: "Operate", action: { kind: "operate" } },
   { key: "2", does: "Runs", action: { kind: "runs" } },
   { key: "t", does: "Theme: auto, light, dark", action: { kind: "theme" } },
@@ -32,6 +32,14 @@ const SINGLE: ReadonlyMap<string, KeyAction> = new Map([
   ...COMMANDS.map(({ key, command }) => [key, { kind: "command", command } as KeyAction] as const),
 ]);
 
+/** Nobody gives a command by a key without seeing what it will act on. Stop is not among these. */
+export const ONLY_OPERATING: ReadonlySet<KeyAction["kind"]> = new Set([
+  "command",
+  "pause",
+  "shorter",
+  "longer",
+]);
+
 export interface Press {
   readonly key: string;
   readonly repeat: boolean;
@@ -39,16 +47,19 @@ export interface Press {
   readonly modified: boolean;
   /** The focus is where text is typed. */
   readonly typing: boolean;
+  /** The Operate page is on the screen. */
+  readonly operating: boolean;
   /** Single keys can be turned off (WCAG 2.1.4); Escape cannot. */
   readonly singleKeys: boolean;
 }
 
 /** What a key press means; null where it means nothing here. */
-export function actionOf({ key, repeat, modified, typing, singleKeys }: Press): KeyAction | null {
+export function actionOf({ key, repeat, modified, typing, operating, singleKeys }: Press): KeyAction | null {
   if (repeat || modified) return null;
   if (key === "Escape") return typing ? { kind: "leave-field" } : { kind: "stop" };
   if (typing || !singleKeys) return null;
-  return SINGLE.get(key.length === 1 ? key.toLowerCase() : key) ?? null;
+  const action = SINGLE.get(key.length === 1 ? key.toLowerCase() : key) ?? null;
+  return action !== null && ONLY_OPERATING.has(action.kind) && !operating ? null : action;
 }
 
 const TEXT_INPUTS = new Set([

@@ -29,6 +29,12 @@ describe("zoom", () => {
     expect(pan(whole(10), 0.5)).toEqual(whole(10));
   });
 
+  it("ignores a window that is none", () => {
+    const run = whole(10);
+    expect(zoomTo(run, { from_s: 4, to_s: 4 }, PERIOD_S)).toBe(run);
+    expect(zoomTo(run, { from_s: NaN, to_s: NaN }, PERIOD_S)).toBe(run);
+  });
+
   it("is done with keys, too", () => {
     const near = byKey(whole(8), "+", PERIOD_S)!;
     expect(shownWindow(near)).toEqual({ from_s: 2, to_s: 6 });

@@ -16,6 +16,7 @@ export const shownWindow = (stack: ZoomStack): TimeWindow => stack.at(-1)!;
 
 /** Zooms to a window, kept inside the run and not narrower than a few ticks. */
 export function zoomTo(stack: ZoomStack, wanted: TimeWindow, period_s: number): ZoomStack {
+  if (!(wanted.from_s < wanted.to_s)) return stack;
   const next = inside(wanted, stack[0]!, LEAST_TICKS * period_s);
   const now = shownWindow(stack);
   if (next.from_s === now.from_s && next.to_s === now.to_s) return stack;

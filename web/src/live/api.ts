@@ -22,11 +22,16 @@ export class Problem extends Error {
 }
 
 const NO_ANSWER = "The server does not answer.";
+const WAIT_MS = 15_000;
 
 async function request<T>(path: string, options: RequestInit = {}): Promise<T> {
   let response: Response;
   try {
-    response = await fetch(`/api/v1/${path}`, { headers: { Accept: "application/json" }, ...options });
+    response = await fetch(`/api/v1/${path}`, {
+      headers: { Accept: "application/json" },
+      signal: AbortSignal.timeout(WAIT_MS),
+      ...options,
+    });
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
     throw new Problem(NO_ANSWER, "no_answer", null);

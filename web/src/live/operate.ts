@@ -18,7 +18,6 @@ export const COMMANDS: readonly CommandInfo[] = [
   { command: "resume", label: "Resume", key: "u" },
   { command: "depressurise", label: "Depressurise", key: "d" },
 ];
-export const STOP: CommandInfo = { command: "stop", label: "Stop", key: "Escape" };
 
 const NO_DATA: Record<NonNullable<Freshness["trouble"]>, string> = {
   connecting: "No link to the server yet",

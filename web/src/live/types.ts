@@ -8,7 +8,6 @@ export type Mode = Schemas["ModeWord"];
 export type RigStatus = Schemas["RigStatus"];
 export type Trip = Schemas["Trip"];
 export type LoopHealth = Schemas["LoopHealth"];
-export type RunProgress = Schemas["RunProgress"];
 export type RigEvent = Schemas["EventOut"];
 export type Hello = Schemas["Hello"];
 
