@@ -127,7 +127,7 @@ def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
         return
     target = s.target
     if s.kind == Segment.HOLD or s.kind == Segment.END:
-        rest(g, g.from_value if math.isnan(target) else target)
+        rest(g, g.from_value)
     elif s.kind == Segment.LINEAR:
         rest(g, g.from_value + share * (target - g.from_value))
     else:

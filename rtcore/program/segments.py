@@ -1,7 +1,7 @@
 """The load program: a table of segments that the setpoint generator walks through.
 
-A segment picks the setpoint up where the one before left it, so a table cannot describe a jump
-except by a `SMOOTH` segment of no duration, which is what a step is.
+A segment picks the setpoint up where the one before left it. A jump is a `SMOOTH` segment of no duration, which is
+what a step is; else only a harmonic that is told where to begin can jump, and the app leads in to that.
 """
 
 from enum import IntEnum
@@ -16,7 +16,7 @@ class Segment(IntEnum):
     """What a segment does with the setpoint."""
 
     END = 0  # the program is over; the setpoint stays
-    HOLD = 1  # stay at `target`, NaN: where it is
+    HOLD = 1  # stay where it is
     LINEAR = 2  # to `target` in `ticks`, or at `rate_per_s` where ticks is 0
     SMOOTH = 3  # to `target` along half a cosine in `ticks`; a step where ticks is 0
     HARMONIC = 4  # mean, amplitude and frequency move from their first to their second values

@@ -36,7 +36,8 @@ def segment_is_valid(s: Record, index: int, limit: float, frequency_limit_hz: fl
         mean = 0.0 if math.isnan(s.mean_from) else s.mean_from
         started = 0.0 < s.frequency_from_hz < frequency_limit_hz and math.isfinite(s.phase_cycles)
         return started and _within(abs(mean) + abs(s.amplitude_from), limit)
+    if s.kind in (Segment.HOLD, Segment.END):
+        return True
     if s.kind == Segment.LINEAR and s.ticks == 0 and not (s.rate_per_s > 0.0):
         return False
-    keeps = s.kind != Segment.LINEAR and math.isnan(s.target)
-    return keeps or _within(s.target, limit)
+    return _within(s.target, limit)

@@ -95,6 +95,14 @@ def test_a_ramp_at_a_rate_takes_as_long_as_it_needs() -> None:
     assert (walk.value[600:] == -500.0).all()
 
 
+def test_the_end_leaves_the_setpoint_where_it_is() -> None:
+    rows = table(*step(2000.0, 0.01))
+    rows["segments"]["target"][2:] = 0.0  # what a bank holds beyond what was written
+    walk = Walk(rows, 60)
+    assert (walk.value[1:] == 2000.0).all()
+    assert walk.g["ended"] == 1
+
+
 def test_repeats_nest() -> None:
     inner: list[Row] = [
         {"kind": Segment.LINEAR, "target": 1.0, "ticks": 2},

@@ -244,6 +244,7 @@ def test_nothing_is_adopted_during_a_run(running: Virtual) -> None:
         {"kind": 9},
         {"kind": 2, "target": 60e3, "ticks": 10},
         {"kind": 2, "target": np.nan, "ticks": 10},
+        {"kind": 3, "target": np.nan, "ticks": 10},
         {"kind": 2, "target": 1e3, "rate_per_s": 0.0},
         {"kind": 4, "ticks": 10, "amplitude_to": 60e3, "frequency_to_hz": 1.0, "continues": 1},
         {"kind": 4, "ticks": 10, "amplitude_to": 1e3, "frequency_to_hz": 3e3, "continues": 1},
