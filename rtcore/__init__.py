@@ -7,6 +7,7 @@ alone would keep a stale caller when a kernel that it calls, in another file, ha
 import hashlib
 import os
 import shutil
+import sys
 from pathlib import Path
 
 _HERE = Path(__file__).parent
@@ -27,6 +28,8 @@ def _use_fresh_kernel_cache() -> None:
         for old in stale[:-3]:
             shutil.rmtree(old, ignore_errors=True)
     os.environ["NUMBA_CACHE_DIR"] = str(cache)
+    if "numba" in sys.modules:  # which has read its environment already
+        sys.modules["numba"].config.CACHE_DIR = str(cache)
 
 
 if "NUMBA_CACHE_DIR" not in os.environ:
