@@ -6,6 +6,7 @@ from rtcore.modes import Mode
 
 PRESSURISED = (Mode.PRESSURISING, Mode.READY, Mode.RUNNING, Mode.HOLDING, Mode.STOPPING)
 LOADABLE = (Mode.READY, Mode.RUNNING, Mode.HOLDING)
+RISING = (Mode.PRESSURISING,)
 IN_A_TEST = (Mode.RUNNING, Mode.HOLDING)
 
 _ABOVE, _BELOW, _MAGNITUDE = Comparison.ABOVE, Comparison.BELOW, Comparison.MAGNITUDE_ABOVE
@@ -17,8 +18,9 @@ _ROWS = (
     ("force_error", Quantity.FORCE_ERROR_N, _MAGNITUDE, 15e3, 0.05, _STOP, IN_A_TEST),
     ("displacement", Quantity.DISPLACEMENT_M, _MAGNITUDE, 0.032, 0.0, _STOP, PRESSURISED),
     ("velocity", Quantity.VELOCITY_M_S, _MAGNITUDE, 0.4, 0.01, _STOP, PRESSURISED),
-    ("sensor_faults", Quantity.SENSOR_FAULTS, _ABOVE, 0.5, 0.0, _SHUTDOWN, PRESSURISED),
+    ("sensor_faults", Quantity.SENSOR_FAULTS, _ABOVE, 0.5, 0.0, _SHUTDOWN, tuple(Mode)),
     ("supply_pressure", Quantity.SUPPLY_PRESSURE_PA, _BELOW, 15e6, 0.05, _STOP, LOADABLE),
+    ("slow_pressure", Quantity.SUPPLY_PRESSURE_PA, _BELOW, 19e6, 15.0, _SHUTDOWN, RISING),
     ("app_silence", Quantity.APP_SILENCE_S, _ABOVE, 0.5, 0.0, _STOP, PRESSURISED),
     ("deadlines_missed", Quantity.DEADLINES_MISSED, _ABOVE, 40.0, 0.0, _STOP, PRESSURISED),
 )

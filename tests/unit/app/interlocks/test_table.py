@@ -31,7 +31,8 @@ def _by_name() -> dict[str, Detector]:
 def test_the_loop_adopts_the_shipped_table() -> None:
     record = to_record(default_interlocks(), PERIOD_S)
     assert interlocks_are_valid(record.reshape(1)[0])
-    assert record["count"] == len(Quantity)  # each quantity is watched once
+    watched = set(record["detectors"]["quantity"][: record["count"]].tolist())
+    assert watched == {int(quantity) for quantity in Quantity}
 
 
 @pytest.mark.parametrize(
@@ -61,7 +62,12 @@ def test_the_shipped_detectors_reach_the_loop(
 def test_detectors_are_armed_where_they_mean_something() -> None:
     pressurised = {mode for mode in Mode if is_pressurised(mode)}
     in_a_test = {Mode.RUNNING, Mode.HOLDING}
-    expected = {"force_error": in_a_test, "supply_pressure": in_a_test | {Mode.READY}}
+    expected = {
+        "force_error": in_a_test,
+        "supply_pressure": in_a_test | {Mode.READY},
+        "slow_pressure": {Mode.PRESSURISING},
+        "sensor_faults": set(Mode),  # a dead sensor blocks the reset too
+    }
     table = to_record(default_interlocks(), PERIOD_S)
     for place, name in enumerate(_by_name()):
         armed = int(table["detectors"][place]["armed_modes"])
