@@ -45,7 +45,6 @@ def _fill(table: Any, blocks: Sequence[Sequence[Node]]) -> None:
     last = max(len(blocks) - 1, 0)
     table["segments"][count]["kind"] = Segment.END
     table["segments"][count]["block"] = last
-    table["segments"][count]["target"] = np.nan
     table["count"] = count + 1
 
 

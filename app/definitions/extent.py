@@ -95,7 +95,7 @@ class Survey:
 def after(piece: Piece, state: State) -> State:
     """Where a piece leaves the setpoint."""
     if piece.kind != Segment.HARMONIC:
-        value = state.value if math.isnan(piece.target) else piece.target
+        value = state.value if piece.kind == Segment.HOLD else piece.target
         return State(value, value)
     phase = state.phase_cycles if piece.continues else piece.phase_cycles
     phase = (phase + _turned(piece, state)) % 1.0

@@ -70,7 +70,7 @@ def lead_in_s(limit: float, rate_limit_per_s: float) -> float:
 
 def hold(target: float | None, duration_s: float, lead_s: float) -> list[Node]:
     """Go to the target smoothly and stay; None stays where the setpoint is."""
-    stay = Piece(Segment.HOLD, whole_ticks(duration_s), target=math.nan)
+    stay = Piece(Segment.HOLD, whole_ticks(duration_s))
     if target is None:
         return [stay]
     return [Piece(Segment.SMOOTH, whole_ticks(lead_s), target=target), stay]
@@ -87,7 +87,7 @@ def step(target: float, rise_s: float, hold_s: float, *, is_step: bool) -> list[
     """To the target at once or within the rise time, then stay."""
     ticks = whole_ticks(rise_s) if rise_s > 0 else 0
     rise = Piece(Segment.SMOOTH, ticks, target=target, is_step=is_step)
-    return [rise, Piece(Segment.HOLD, whole_ticks(hold_s), target=math.nan)]
+    return [rise, Piece(Segment.HOLD, whole_ticks(hold_s))]
 
 
 def harmonic(
