@@ -3,11 +3,11 @@
 import math
 from typing import Any
 
-from app.settings import VERSION
 from app.analysis.measurements import MEASUREMENTS
 from app.definitions.limits import RIG
 from app.documents.writing import to_data
 from app.prediction.simulation import Simulation
+from app.settings import VERSION
 
 
 def account(simulation: Simulation) -> dict[str, Any]:

@@ -45,15 +45,16 @@ def _records(definition: Definition, holds: list[tuple[int, int]]) -> npt.NDArra
     parts.append(virtual.advance(round(outline(definition).duration_s / RIG.period_s) + 4000))
     records = np.concatenate(parts)
     assert np.array_equal(records["tick"], first + np.arange(len(records)))
-    return records[records["run"] == 1]
+    of_the_run: npt.NDArray[Any] = records[records["run"] == 1]
+    return of_the_run
 
 
 def _commanded(virtual: Virtual, opcode: Opcode, argument: int) -> npt.NDArray[Any]:
     """Give a command; the record of the tick that obeyed it."""
     assert virtual.command(opcode, argument) == Reply.ACCEPTED
     ring = virtual.block.ring
-    last = (virtual.tick - 1) % len(ring)
-    return np.array(ring[last : last + 1])
+    obeyed: npt.NDArray[Any] = ring[[(virtual.tick - 1) % len(ring)]]
+    return obeyed
 
 
 def test_every_tick_of_the_program_is_found_once_and_in_its_place() -> None:

@@ -67,6 +67,12 @@ def test_the_fade_after_the_program_is_not_measured() -> None:
     assert _measure(run, Windows(6))["peak_force_n"] == 1
 
 
+def test_what_follows_a_trip_is_not_measured() -> None:
+    run = _run(10, force_n=[1] * 6 + [99] * 4)
+    run["mode"][6:] = Mode.TRIPPED
+    assert _measure(run, Windows(1000))["peak_force_n"] == 1
+
+
 def test_goodness_needs_a_reference_and_compares_the_counted_cycles() -> None:
     run = _run(1000, force_n=np.where(np.arange(1000) < 500, 2000, 5000))
     reference = _run(900, force_n=1900)

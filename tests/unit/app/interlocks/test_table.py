@@ -44,6 +44,7 @@ def test_the_loop_adopts_the_shipped_table() -> None:
         ("velocity", 0.4, 40, Action.STOP),
         ("sensor_faults", 0.5, 1, Action.SHUTDOWN),
         ("supply_pressure", 15e6, 200, Action.STOP),
+        ("slow_pressure", 19e6, 60_000, Action.SHUTDOWN),
         ("app_silence", 0.5, 1, Action.STOP),
         ("deadlines_missed", 40, 1, Action.STOP),
     ],
