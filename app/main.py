@@ -78,6 +78,8 @@ def serve(host: str | None = None, port: int | None = None, data_dir: Path | Non
     given: dict[str, Any] = {"host": host, "port": port, "data_dir": data_dir}
     settings = Settings(**{name: value for name, value in given.items() if value is not None})
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)-7s %(message)s")
+    for chatty in ("uvicorn.error", "alembic"):
+        logging.getLogger(chatty).setLevel(logging.WARNING)
     for number in (signal.SIGTERM, signal.SIGINT):
         # Uvicorn has its own handlers while it runs, and raises what it caught again afterwards.
         signal.signal(number, lambda *_: None)

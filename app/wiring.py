@@ -47,7 +47,13 @@ class Console:
         self.rig = Rig(self.link, lambda: self.status.read().commands)
         self.runs = Runs(self.database, settings.runs_dir)
         self.starter = Starter(
-            self.database, self.link, self.recorder, frozen, plans, self.rig.why_not_start
+            self.database,
+            self.link,
+            self.recorder,
+            frozen,
+            plans,
+            self.rig.why_not_start,
+            self._clerk.never_began,
         )
         self.broadcaster = Broadcaster(lambda: self.link.life, self.status.read)
         self.command_threads = ThreadPoolExecutor(8, thread_name_prefix="commands")

@@ -16,7 +16,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from app.link.events import LoopEvent
 from app.recording.files import convert, keep_parts, remove_parts
-from app.recording.outcome import Ending
+from app.recording.outcome import NEVER_BEGAN, Ending
 from app.recording.run_file import Recorded
 
 _log = logging.getLogger(__name__)
@@ -92,6 +92,10 @@ class Clerk:
         """A run is over: make its file, write its end down, remove what the file was made from."""
         self._ending.add(run_id)
         self._jobs.put(lambda: self._end(run_id, recorded, ending))
+
+    def never_began(self, run_id: int) -> None:
+        """The loop did not begin a run, and will not any more."""
+        self.ended(run_id, Recorded(-1, -1, 0, 0), NEVER_BEGAN)
 
     def _end(self, run_id: int, recorded: Recorded, ending: Ending) -> None:
         folder = self._runs_dir / str(run_id)

@@ -12,8 +12,8 @@ import numpy.typing as npt
 from app.link.events import EventReader, LoopEvent
 from app.link.life import Life
 from app.recording.clerk import Clerk
-from app.recording.outcome import LOOP_ENDED, NEVER_BEGAN, Outcome, ending_of
-from app.recording.run_file import Recorded, RunFile
+from app.recording.outcome import LOOP_ENDED, Outcome, ending_of
+from app.recording.run_file import RunFile
 from rtcore.supervise import RUN_TAIL_S
 
 _log = logging.getLogger(__name__)
@@ -72,11 +72,13 @@ class Tape:
             tripped = ending.outcome is Outcome.TRIPPED
             recorded = file.recorded(self._tail_ticks)
             self._clerk.ended(file.run_id, recorded, ending if tripped else LOOP_ENDED)
+        for run in self._clerk.open_runs(self._life.name):
+            self._clerk.never_began(run.id)
 
     def end_unseen(self) -> None:
         """After the first drain: a run left open of which no tick was found never began."""
         for run_id in sorted(self._unseen):
-            self._clerk.ended(run_id, Recorded(-1, -1, 0, 0), NEVER_BEGAN)
+            self._clerk.never_began(run_id)
         self._unseen.clear()
 
     def _records(self) -> Iterator[npt.NDArray[Any]]:

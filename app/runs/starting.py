@@ -20,7 +20,6 @@ from app.runs.models import Run
 from app.runs.plans import Plans
 from app.settings import VERSION
 from rtcore.codes import Opcode
-from rtcore.modes import Mode
 
 _CATCHING_UP = Refusal(
     Code.BUSY, "Cannot start: the recorder is still reading what happened before; try again"
@@ -47,6 +46,7 @@ class Starter:
         frozen: Frozen,
         plans: Plans,
         why_not: Callable[[], Refusal | None],
+        never_began: Callable[[int], None],
     ) -> None:
         self._database = database
         self._link = link
@@ -54,6 +54,8 @@ class Starter:
         self._frozen = frozen
         self._plans = plans
         self._why_not = why_not
+        self._never_began = never_began
+        self._unanswered: set[int] = set()
         self._one_at_a_time = Lock()
 
     def start(self, test_id: str) -> Run | Refusal:
@@ -71,16 +73,15 @@ class Starter:
             return refusal or Refusal(Code.LOOP_LOST, "Cannot start: the loop process does not run")
         if self._recorder.following is not life:
             return _CATCHING_UP
+        self._settle()
         refusal = self._link.adopt(Opcode.ADOPT_PROGRAM, expand(definition))
         if refusal is not None:
             return refusal
         run = self._enter(life, test_id, definition)
         answer = self._link.ask(Opcode.START, run.id)
         if isinstance(answer, Refusal):
-            return self._withdraw(run, life, answer)
+            return self._withdraw(run, answer)
         self._plans.remember(run, answer.tick)
-        with self._database.writing() as session:
-            repository.set_first_tick(session, run.id, answer.tick)
         return run
 
     def _enter(self, life: Life, test_id: str, definition: Definition) -> Run:
@@ -106,9 +107,19 @@ class Starter:
             session.add(run)
         return run
 
-    def _withdraw(self, run: Run, life: Life, refusal: Refusal) -> Refusal:
+    def _withdraw(self, run: Run, refusal: Refusal) -> Refusal:
         """The loop did not start it: no run. Where it did not answer, it may have: the row stays."""
-        if refusal.code not in (Code.LOOP_SILENT, Code.LOOP_LOST) or life.mode() is Mode.READY:
+        if refusal.code is Code.LOOP_SILENT:
+            self._unanswered.add(run.id)
+        else:
             with self._database.writing() as session:
                 session.delete(session.merge(run))
         return refusal
+
+    def _settle(self) -> None:
+        """The loop is ready for a start now: what it did not begin by then, it never will."""
+        with self._database.reading() as session:
+            for run in repository.without_outcome(session):
+                if run.id in self._unanswered and run.first_tick is None:
+                    self._never_began(run.id)
+        self._unanswered.clear()

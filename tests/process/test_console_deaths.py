@@ -9,6 +9,8 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from app.link.process import LoopCommand
+from app.link.supervisor import Supervisor
 from rtcore.memory.rings import telemetry_reader
 from rtcore.memory.segment import attach_block, create_block, loop_is_running
 from rtcore.modes import Mode, is_pressurised
@@ -192,3 +194,19 @@ def test_a_second_console_is_refused(console: ConsoleProcess, tmp_path: Path) ->
     with pytest.raises(AssertionError, match="another console uses the data directory"):
         second.start()
     assert console.status()["loop"]["alive"]
+
+
+def test_a_loop_that_cannot_start_is_tried_again_and_told(tmp_path: Path) -> None:
+    block = tmp_path / "loop.block"
+    command = LoopCommand(block, tmp_path / "loop.log", ("--block", str(block), "--nonsense"))
+    supervisor = Supervisor(command, lambda life: None, lambda life: True)
+    command.log.touch()
+    supervisor.start()
+    try:
+        wait_for(lambda: not supervisor.starting, "the first failure")
+        wait_for(lambda: command.log.read_text().count("--nonsense") >= 2, "a second attempt")
+        assert supervisor.life is None
+    finally:
+        supervisor.stop()
+        supervisor.reap()
+    assert "unrecognized arguments" in command.last_words()

@@ -241,6 +241,19 @@ def test_all_that_a_dead_loop_published_is_kept(
     assert (recorded.missing_ticks, ending.outcome) == (0, Outcome.INTERRUPTED)
 
 
+def test_a_run_that_a_dead_loop_had_not_begun_has_failed(
+    loop: WrittenBlock, book: PaperBook, tmp_path: Path
+) -> None:
+    desk = Desk(loop, tmp_path, book)
+    loop.ticks(10)
+    desk.drain()
+    book.enter(1)
+    book.enter(2, life="of-the-next-loop")
+    desk.finish()
+    assert book.ends[1][1].outcome is Outcome.FAILED
+    assert list(book.open) == [2]
+
+
 def test_both_dead_and_the_block_left_over(
     loop: WrittenBlock, book: PaperBook, tmp_path: Path
 ) -> None:

@@ -1,0 +1,112 @@
+"""The status, read off a block."""
+
+import json
+import math
+from time import monotonic_ns
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from app.link.life import Life
+from app.link.link import Link
+from app.recording.recorder import Recorder, RecorderState
+from app.rigs.schemas import RigStatus
+from app.rigs.status import StatusReader
+from app.runs.models import Run
+from app.runs.plans import Plans
+from rtcore.modes import Mode
+from tests.written_block import APP_SILENCE, FORCE_ERROR, PERIOD_S, WrittenBlock
+
+IDLE = RecorderState(recording=False, lost_ticks=0, size_bytes=0, trouble=None)
+
+
+def reader(
+    life: Life | None, *, starting: bool = False, plans: Plans | None = None
+) -> StatusReader:
+    link = cast(Link, SimpleNamespace(life=life, starting=starting))
+    recorder = cast(Recorder, SimpleNamespace(state=lambda: IDLE))
+    return StatusReader(link, recorder, plans or Plans(), 21e6)
+
+
+def read(loop: WrittenBlock, age_s: float = 0.0, **options: Any) -> RigStatus:
+    loop.block.fields["loop_heartbeat_ns"] = monotonic_ns() - int(age_s * 1e9)
+    return reader(loop.life(), **options).read()
+
+
+@pytest.fixture
+def loop() -> WrittenBlock:
+    written = WrittenBlock()
+    written.ticks(100)
+    return written
+
+
+def test_before_the_first_sign_of_life_it_is_starting() -> None:
+    status = reader(None, starting=True).read()
+    assert (status.mode, status.loop.alive) == ("starting", False)
+    assert reader(None).read().mode == "lost"
+    assert set(status.readings.values()) == {None}
+
+
+@pytest.mark.parametrize(("age_s", "mode"), [(0.1, "off"), (0.9, "lost")])
+def test_within_a_second_of_silence_the_loop_is_lost(
+    loop: WrittenBlock, age_s: float, mode: str
+) -> None:
+    loop.go(Mode.OFF)
+    loop.ticks(1)
+    status = read(loop, age_s)
+    assert (status.mode, status.loop.alive) == (mode, mode == "off")
+    assert (status.commands.pressurise is None) == (mode == "off")
+
+
+def test_what_is_latched_is_told_with_the_first_on_top(loop: WrittenBlock) -> None:
+    loop.trip(APP_SILENCE, 0.5, 0.5)
+    loop.ticks(5)
+    loop.trip(FORCE_ERROR, 7000.0, 6000.0)
+    loop.block.fields["first_out"] = APP_SILENCE
+    loop.ticks(1, trips=1 << APP_SILENCE | 1 << FORCE_ERROR)
+    trips = read(loop).trips
+    assert [(trip.code, trip.tick, trip.first) for trip in trips] == [
+        ("app_silence", 100, True),
+        ("force_error", 105, False),
+    ]
+    assert read(loop).commands.start == f"Press Reset first: {trips[0].text}"
+
+
+def test_what_is_no_number_is_null(loop: WrittenBlock) -> None:
+    loop.ticks(1, force_n=math.nan, velocity_m_s=math.inf)
+    status = read(loop)
+    assert status.readings["force_n"] is None
+    assert status.readings["velocity_m_s"] is None
+    json.loads(status.model_dump_json(), parse_constant=lambda word: pytest.fail(word))
+
+
+def test_the_time_in_a_mode_counts_from_its_event(loop: WrittenBlock) -> None:
+    loop.go(Mode.OFF)
+    loop.ticks(41)
+    assert read(loop).mode_since_s == pytest.approx(40 * PERIOD_S)
+
+
+def test_limits_are_those_of_the_detectors_in_force(loop: WrittenBlock) -> None:
+    limits = read(loop).limits
+    assert (limits.force_error_n, limits.force_n, limits.velocity_m_s) == (6000.0, 1000.0, None)
+
+
+def test_the_run_under_way_with_what_is_expected_of_it(loop: WrittenBlock) -> None:
+    plans = Plans()
+    plan = {"blocks": [{"cycles": 0}, {"cycles": 200}], "duration_s": 4.8}
+    plans.remember(Run(id=7, test_name="Harmonic", plan=plan), first_tick=100)
+    loop.begin(7)
+    loop.ticks(41, run=7, block=1, cycle=17)
+    run = read(loop, plans=plans).run
+    assert run is not None
+    assert run.model_dump() == {
+        "id": 7,
+        "test_name": "Harmonic",
+        "block": 1,
+        "blocks": 2,
+        "cycle": 17,
+        "cycles": 200,
+        "elapsed_s": pytest.approx(40 * PERIOD_S),
+        "duration_s": 4.8,
+    }
