@@ -13,6 +13,15 @@ class _Dumper(yaml.SafeDumper):
     """Quotes what YAML 1.1 or 1.2 would read as something other than text."""
 
 
+_ODD_BREAKS = set("\x85\u2028\u2029")  # PyYAML folds them like line ends, unless quoted twice
+
+
+def _text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    style = '"' if _ODD_BREAKS & set(text) else None
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style)
+
+
+_Dumper.add_representer(str, _text)
 _Dumper.add_implicit_resolver("tag:yaml.org,2002:float", CORE_FLOAT, list("-+0123456789."))
 
 

@@ -43,6 +43,14 @@ def test_our_yaml_says_the_same_to_a_reader_of_yaml_1_1(data: strategies.Data) -
     assert definition_from(yaml.safe_load(to_yaml(definition))) == definition
 
 
+def test_text_with_the_line_ends_of_other_alphabets_stays_as_it_is() -> None:
+    for name in ("a\x85b", "\u2028", "a\u2029", "one\ntwo\n", "\ttab ", "\ufeff", "\x00"):
+        data = {"schema": 1, "name": name, "blocks": [{"kind": "hold", "duration_s": 1}]}
+        definition = definition_from(data)
+        assert isinstance(definition, Definition)
+        assert parse_definition(to_yaml(definition)) == definition
+
+
 def test_text_that_looks_like_a_number_stays_text() -> None:
     for name in ("2e4", "1:30", "off", "null", "0x10", ".nan", "~", "1_000", "=", "010"):
         data = {"schema": 1, "name": name, "blocks": [{"kind": "hold", "duration_s": 1}]}
