@@ -20,6 +20,7 @@ _DETECTORS = (
     (Quantity.FORCE_ERROR_N, Comparison.MAGNITUDE_ABOVE, Action.STOP, 200, 6000.0),
     (Quantity.APP_SILENCE_S, Comparison.ABOVE, Action.STOP, 1, 0.5),
     (Quantity.FORCE_N, Comparison.MAGNITUDE_ABOVE, Action.INDICATE, 1, 1000.0),
+    (Quantity.VELOCITY_M_S, Comparison.BELOW, Action.INDICATE, 1, -0.3),
 )
 
 

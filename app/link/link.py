@@ -14,6 +14,7 @@ from app.link.process import LoopCommand, end_loop
 from app.link.refusals import as_refusal
 from app.link.supervisor import Supervisor
 from rtcore.codes import Opcode
+from rtcore.memory.segment import BlockError, lock_single_loop
 from rtcore.modes import is_run
 
 _log = logging.getLogger(__name__)
@@ -91,8 +92,12 @@ class Link:
         """Fall silent, and remove the block: all that was in it has been recorded."""
         self._heartbeat.stop()
         block = self._supervisor.block
-        for path in (block, block.with_suffix(".lock")):
-            path.unlink(missing_ok=True)
+        try:
+            with lock_single_loop(block):  # only where no loop has it
+                for path in (block, block.with_suffix(".lock")):
+                    path.unlink(missing_ok=True)
+        except BlockError as error:
+            _log.error("the loop process did not end: %s", error)
 
 
 def _is_loaded(life: Life) -> bool:

@@ -31,6 +31,14 @@ def recorded(console: ConsoleProcess, run: dict[str, Any]) -> Any:
     return table
 
 
+def is_gone(pid: int) -> bool:
+    """Whether a process has ended, whoever is to collect it."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except FileNotFoundError:
+        return True
+
+
 def running(console: ConsoleProcess) -> int:
     """The number of a run that is well under way, part of it on disk."""
     console.start().make_ready()
@@ -67,6 +75,10 @@ def test_the_console_is_killed_in_mid_run(console: ConsoleProcess) -> None:
     assert trip["value"] == pytest.approx(SILENCE_S, abs=2 * PERIOD_S)
     assert trip["tick"] == run["first_tick"] + stopped
     assert not (console.data / "runs" / str(run_id) / "part-0001.arrows").exists()
+
+    pid = console.loop_pid
+    assert console.stop() == 0  # it ends a loop too that it did not start
+    assert is_gone(pid)
 
 
 def test_the_loop_is_killed_in_mid_run(console: ConsoleProcess) -> None:
@@ -122,7 +134,8 @@ def test_a_frozen_loop_is_lost_and_found_again(console: ConsoleProcess) -> None:
     pid = console.loop_pid
     os.kill(pid, signal.SIGSTOP)
     try:
-        wait_for(lambda: console.mode() == "lost", "the loss to be told")
+        wait_for(lambda: console.status()["loop"]["data_age_s"] > 1.5, "the supervisor to look")
+        assert console.mode() == "lost"
     finally:
         os.kill(pid, signal.SIGCONT)
     wait_for(lambda: console.status()["loop"]["alive"], "the loop again")
@@ -133,7 +146,7 @@ def test_a_clean_stop_leaves_no_load_no_pressure_and_no_process(console: Console
     run_id = running(console)
     block, pid = attach_block(console.block), console.loop_pid
     assert console.stop() == 0
-    assert not Path(f"/proc/{pid}").exists() or "Z" in Path(f"/proc/{pid}/stat").read_text()
+    assert is_gone(pid)
     assert not console.block.exists()
     last = telemetry_reader(block).read(1 << 20).records
     assert Mode(int(last["mode"][-1])) is Mode.OFF

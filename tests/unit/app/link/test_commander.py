@@ -1,5 +1,6 @@
 """Commands: answered, refused, or given up on; and none waits for another one's answer."""
 
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from threading import Event, Thread
@@ -85,8 +86,13 @@ def test_every_other_reply_is_a_refusal_with_a_sentence(
 
 
 def test_many_at_once_are_each_answered(loop: Obedient, commander: Commander) -> None:
-    with ThreadPoolExecutor(8) as threads:
-        answers = list(threads.map(lambda i: commander.ask(Opcode.HOLD, i), range(200)))
+    interval_s = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(8) as threads:
+            answers = list(threads.map(lambda i: commander.ask(Opcode.HOLD, i), range(200)))
+    finally:
+        sys.setswitchinterval(interval_s)
     assert answers == [Answer(Reply.ACCEPTED, 1234)] * 200
     assert sorted(argument for _, argument in loop.seen) == list(range(200))
 
