@@ -11,7 +11,8 @@ from rtcore.memory.commands import acknowledge, pending
 from rtcore.memory.layout import COMMAND_SLOTS
 from rtcore.memory.rings import publish_event
 from rtcore.modes import Event, Mode, is_run
-from rtcore.program.validate import segment_is_valid, table_is_bounded
+from rtcore.program.segments import Segment
+from rtcore.program.validate import repeat_is_too_deep, segment_is_valid, table_is_bounded
 from rtcore.supervise import apply_event, clear_trips, start_run
 
 # The event of the mode that a command is, by opcode; -1 for those that are none.
@@ -79,7 +80,10 @@ def _check_next_segments(core: Record, table: Record, first: int, limit: float) 
     """Check a share of a table; -1 invalid, else how many segments of it are checked."""
     last = min(table.count, first + SEGMENTS_A_TICK)
     for i in range(first, last):
-        if not segment_is_valid(table.segments[i], i, limit, 0.5 / core.settings.period_s):
+        s = table.segments[i]
+        if not segment_is_valid(s, i, limit, 0.5 / core.settings.period_s):
+            return -1
+        if s.kind == Segment.REPEAT and repeat_is_too_deep(table, i):
             return -1
     return last
 

@@ -153,6 +153,8 @@ def _after_repeat(g: Record, s: Record) -> int:
     top = g.depth - 1
     if top >= 0 and g.repeat_segment[top] == g.segment:
         g.repeat_pass[top] += 1
+    elif g.depth == MAX_DEPTH:  # no valid table gets here
+        return g.segment + 1
     else:
         top += 1
         g.depth = top + 1

@@ -3,7 +3,7 @@
 import math
 
 from rtcore.compiled import Record, kernel
-from rtcore.program.segments import MAX_SEGMENTS, Segment
+from rtcore.program.segments import MAX_DEPTH, MAX_SEGMENTS, Segment
 
 
 @kernel
@@ -12,6 +12,19 @@ def table_is_bounded(table: Record) -> bool:
     if table.count < 1 or table.count > MAX_SEGMENTS:
         return False
     return table.segments[table.count - 1].kind == Segment.END
+
+
+@kernel
+def repeat_is_too_deep(table: Record, index: int) -> bool:
+    """Whether the REPEAT at `index` lies within so many others that the generator could not count them."""
+    enclosing = 0
+    for outer in range(index + 1, table.count):
+        s = table.segments[outer]
+        if s.kind == Segment.REPEAT and s.jump <= index:
+            enclosing += 1
+            if enclosing >= MAX_DEPTH:
+                return True
+    return False
 
 
 @kernel

@@ -264,6 +264,18 @@ def test_a_program_that_leads_astray_is_refused_whole(virtual: Virtual, row: Row
     assert virtual.command(Opcode.START, 1) == Reply.ACCEPTED
 
 
+def test_repeats_that_nest_too_deep_are_refused(virtual: Virtual) -> None:
+    def nested(depth: int) -> Any:
+        repeat = {"kind": 5, "jump": 0, "times": 2}
+        return program([HOLD_ROW | {"ticks": 1}, *[repeat] * depth])
+
+    assert virtual.load_program(nested(9)) == Reply.INVALID_BANK
+    assert virtual.load_program(nested(8)) == Reply.ACCEPTED
+    virtual.bring_to_ready()
+    ticks = len(virtual.run())
+    assert ticks == pytest.approx(2**8 + 0.5 / PERIOD_S, abs=3)
+
+
 def test_a_large_program_is_checked_over_many_ticks(virtual: Virtual) -> None:
     rows = [HOLD_ROW | {"ticks": 1}] * 3000
     before = virtual.tick
