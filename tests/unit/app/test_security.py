@@ -58,5 +58,6 @@ def test_a_browser_that_says_it_comes_from_elsewhere_is_believed(site: str) -> N
 
 
 def test_anybody_may_link_to_the_console() -> None:
-    asks = {"host": "localhost:8000", "sec_fetch_site": "cross-site"}
-    assert asked("GET", **asks, origin="http://elsewhere.example") is None
+    origin = "http://elsewhere.example"
+    found = asked("GET", host="localhost:8000", sec_fetch_site="cross-site", origin=origin)
+    assert found is None
