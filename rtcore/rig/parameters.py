@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+LEAST_REYNOLDS = 1e-3  # with none at all, a restriction has no flow that belongs to no drop
 
 
 class _Part(BaseModel):
@@ -74,7 +75,7 @@ class Servovalve(_Part):
     null_m: float = Field(ge=-2e-4, le=2e-4, description="null offset of the spool")
     window_m: float = Field(ge=1e-3, le=0.2, description="metering width of a land")
     discharge: float = Field(ge=0.3, le=1, description="turbulent C_d of a land")
-    transition_reynolds: float = Field(ge=0.0, le=1e3)
+    transition_reynolds: float = Field(ge=LEAST_REYNOLDS, le=1e3)
     clearance_m: float = Field(ge=1e-7, le=5e-5, description="radial, spool to sleeve")
     underlap_pa_m: float = Field(ge=-1e-4, le=1e-4)
     underlap_at_m: float = Field(ge=-1e-4, le=1e-4)
@@ -90,7 +91,7 @@ class LoadActuator(_Part):
     volume_2_m3: float = Field(ge=1e-6, le=0.1, description="chamber 2 at mid stroke")
     bypass_diameter_m: float = Field(ge=1e-4, le=1e-2)
     bypass_discharge: float = Field(ge=0.3, le=1)
-    bypass_transition_reynolds: float = Field(ge=0.0, le=1e4)
+    bypass_transition_reynolds: float = Field(ge=LEAST_REYNOLDS, le=1e4)
     bypass_linear_m3_s_pa: NotNegative = Field(
         le=1e-9, description="a linear bypass beside the orifice"
     )
