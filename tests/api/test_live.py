@@ -137,7 +137,7 @@ def test_events_and_the_changed_list_of_runs_arrive(ready: ConsoleProcess) -> No
         ready.command("stop")
         ready.ended_run(run_id)
         seen: list[str] = []
-        while "Ready" not in seen or "runs" not in seen:
+        while not ("runs" in seen and "Running" in seen and "Ready" in after(seen, "Running")):
             frame = stream.recv(PATIENCE_S)
             message = json.loads(frame) if isinstance(frame, str) else {}
             if message.get("type") == "event":
@@ -145,7 +145,12 @@ def test_events_and_the_changed_list_of_runs_arrive(ready: ConsoleProcess) -> No
                 seen.append(message["event"]["text"])
             elif message.get("type") == "runs":
                 seen.append("runs")
-        assert seen.index("Running") < seen.index("Stopping") < seen.index("Ready")
+        assert after(seen, "Running").index("Stopping") < after(seen, "Running").index("Ready")
+
+
+def after(seen: list[str], text: str) -> list[str]:
+    """What came after a message."""
+    return seen[seen.index(text) :]
 
 
 def test_a_browser_that_stalls_holds_up_nobody(console: ConsoleProcess) -> None:
