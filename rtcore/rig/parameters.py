@@ -6,10 +6,12 @@ A file need name only what differs from the rig that ships with forcerig (`rig.y
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 import yaml
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from rtcore.rig.rates import FASTEST_1_S, fastest_rate, smallest_chambers
 
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
@@ -158,6 +160,22 @@ class RigParameters(_Part):
     structure: Structure
     unit: UnitUnderTest
     sensors: Sensors
+
+    @model_validator(mode="after")
+    def _can_be_followed(self) -> Self:
+        """Values that are sound one by one may still not go together."""
+        rate = fastest_rate(self)
+        if not rate <= FASTEST_1_S:
+            raise ValueError(
+                f"the stiffest part of this rig moves at {rate:,.0f} 1/s, and the simulation follows"
+                f" {FASTEST_1_S:,.0f} 1/s: give its springs or dampers less, or its masses more"
+            )
+        for chamber, left in enumerate(smallest_chambers(self), start=1):
+            if not left > 0.0:
+                raise ValueError(
+                    f"load_actuator.volume_{chamber}_m3 is less than unit.stroke_m and area_m2 take of it"
+                )
+        return self
 
 
 def _merged(base: Mapping[str, Any], over: Mapping[str, Any]) -> dict[str, Any]:

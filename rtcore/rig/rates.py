@@ -1,0 +1,44 @@
+"""How fast the fastest part of a rig moves: the integrator follows only so much."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from rtcore.rig.parameters import RigParameters
+
+# Runge-Kutta's limit is 2.78 a step, and a step lasts a quarter of 250 µs. Restrictions may be faster
+# near no drop: they tremble there, where a structure would fly apart.
+FASTEST_1_S = 2.6 / 62.5e-6
+
+
+def smallest_chambers(rig: "RigParameters") -> tuple[float, float]:
+    """Volumes (m³) of chambers 1 and 2 where the unit's stroke leaves least of each."""
+    taken = rig.load_actuator.area_m2 * rig.unit.stroke_m
+    return rig.load_actuator.volume_1_m3 - taken, rig.load_actuator.volume_2_m3 - taken
+
+
+def fastest_rate(rig: "RigParameters") -> float:
+    """Largest magnitude of an eigenvalue (1/s) of bodies, springs, dampers and the oil between them."""
+    s, unit, actuator, fluid = rig.structure, rig.unit, rig.load_actuator, rig.fluid
+    bulk_pa = fluid.bulk_modulus_pa + fluid.bulk_modulus_slope * rig.supply.high_pa
+    softness = 1.0 / actuator.volume_1_m3 + 1.0 / actuator.volume_2_m3
+    oil_k = actuator.area_m2**2 * bulk_pa * softness
+    # Each joins the body before it to the one after it; the first and the last stand on the ground.
+    joints = (
+        (s.k_pl, s.c_pl),
+        (oil_k, actuator.viscous_n_s_m),
+        (s.k_lc, s.c_lc),
+        (s.k_2, s.c_2),
+        (unit.k_tra, unit.c_tra),
+    )
+    stretch = np.eye(5, 4) - np.eye(5, 4, -1)  # of each joint, by the displacement of each body
+    stiffness, damping = (
+        stretch.T @ np.diag([joint[i] for joint in joints]) @ stretch for i in (0, 1)
+    )
+    mass = np.array([s.m_b_kg, s.m_la_kg, s.m_1_kg, s.m_2_kg])
+    motion = np.zeros((8, 8))
+    motion[:4, 4:] = np.eye(4)
+    motion[4:, :4] = -stiffness / mass[:, None]
+    motion[4:, 4:] = -damping / mass[:, None]
+    return float(np.max(np.abs(np.linalg.eigvals(motion))))
