@@ -26,9 +26,11 @@ def collect_quantities(core: Record, silence_s: float, missed: int) -> None:
 
 @kernel
 def check_detectors(table: Record, core: Record, block: Record, block_address: int) -> int:
-    """Evaluate the table; returns the strongest action of those that trip in this tick, or `NO_ACTION`."""
+    """Evaluate the table; returns the strongest action that is called for, or `NO_ACTION`."""
     strongest = NO_ACTION
     core.violated = np.uint64(0)
+    if core.has_interlocks == 0:
+        return strongest
     for i in range(table.count):
         detector = table.detectors[i]
         value = core.quantities[detector.quantity]
@@ -38,11 +40,11 @@ def check_detectors(table: Record, core: Record, block: Record, block_address: i
             continue
         bit = _ONE << np.uint64(i)
         core.violated |= bit
+        strongest = max(strongest, detector.action)
         if core.trips & bit:
             continue
         core.trips |= bit
         if block.first_out < 0:
             block.first_out = i
         publish_event(block_address, core.tick, EventKind.TRIP, i, value, detector.threshold)
-        strongest = max(strongest, detector.action)
     return strongest

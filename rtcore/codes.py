@@ -33,6 +33,7 @@ class Reply(IntEnum):
     INVALID_BANK = 7
     NO_PROGRAM = 8
     BUSY = 9
+    NOT_CONFIGURED = 10  # no gains or no interlocks have been adopted
 
 
 class EventKind(IntEnum):

@@ -63,15 +63,18 @@ CORE = np.dtype(
         ("violated", "u8"),  # detectors violated in this tick
         ("last_reply", "i8"),
         ("trip_after_stop", "i8"),  # a controlled stop that ends latched
-        ("program_ended", "i8"),
         ("force", GENERATOR),
         ("motion", GENERATOR),
         ("law", LAW),
         ("outputs", OUTPUTS),
         ("run", "i8"),
+        ("tail_ticks", "i8"),  # how much longer a run that has tripped is recorded
         ("has_program", "i8"),
+        ("has_gains", "i8"),
+        ("has_interlocks", "i8"),
         ("lease", "i8"),
         ("commands_seen", "i8"),
+        ("checking_command", "i8"),  # which adoption the next field belongs to
         ("checked_segments", "i8"),  # of a program that waits to be adopted
         ("deadlines_missed", "i8"),
         ("missed_unreported", "i8"),
@@ -108,6 +111,7 @@ def make_core(period_s: float, settings: dict[str, float]) -> npt.NDArray[Any]:
     for name, value in (defaults | settings).items():
         core["settings"][name] = value
     core["mode"] = Mode.TRIPPED
+    core["checking_command"] = -1
     core["force"]["block"] = -1
     core["motion"]["block"] = -1
     return cores

@@ -46,6 +46,7 @@ TRANSITIONS = {
     (Mode.RUNNING, Event.STOP): Mode.STOPPING,
     (Mode.HOLDING, Event.RESUME): Mode.RUNNING,
     (Mode.HOLDING, Event.STOP): Mode.STOPPING,
+    (Mode.STOPPING, Event.STOP): Mode.STOPPING,
     (Mode.STOPPING, Event.STOPPED): Mode.READY,
     **{(mode, Event.TRIP): Mode.TRIPPED for mode in Mode},
 }

@@ -1,4 +1,7 @@
-"""Obey: take one command a tick, and answer it. A command is refused, never queued for a better moment."""
+"""Obey: take one command a tick, and answer it: refused where it cannot be done now, never kept for later.
+
+Only the adoption of a program takes several ticks, and only while no test runs.
+"""
 
 import numpy as np
 
@@ -6,14 +9,13 @@ from rtcore.codes import EventKind, Opcode, Reply
 from rtcore.compiled import Record, kernel
 from rtcore.control.law import adopt_gains, gains_are_valid
 from rtcore.interlocks import interlocks_are_valid
-from rtcore.io import SUPPLY_OFF
 from rtcore.memory.commands import acknowledge, pending
 from rtcore.memory.layout import COMMAND_SLOTS
 from rtcore.memory.rings import publish_event
 from rtcore.modes import Event, Mode, is_run
 from rtcore.program.segments import Segment
 from rtcore.program.validate import repeat_is_too_deep, segment_is_valid, table_is_bounded
-from rtcore.supervise import apply_event, clear_trips, start_run
+from rtcore.supervise import apply_event, clear_trips, keep_trips, start_run
 
 # The event of the mode that a command is, by opcode; -1 for those that are none.
 _EVENT_OF = np.full(len(Opcode) + 1, -1)
@@ -28,6 +30,10 @@ for _opcode, _event in (
 ):
     _EVENT_OF[_opcode] = _event
 SEGMENTS_A_TICK = 32
+TARE_REST_S = 2.0  # eight time constants of the tare's running mean
+TARE_BLED_PA = 1e6
+TARE_SHARE = 0.02  # of the load cell's range: more is a load, not an offset
+TARE_SCATTER_SHARE = 0.002
 
 
 @kernel
@@ -38,7 +44,7 @@ def _done(happened: bool) -> int:
 @kernel
 def _reset(core: Record, block: Record, block_address: int) -> int:
     """Clear what is latched, where its cause is gone. Starts nothing."""
-    if core.violated != 0:
+    if core.violated != 0 or core.trip_after_stop != 0:
         return Reply.CAUSE_PRESENT
     if core.mode == Mode.TRIPPED:
         apply_event(core, block_address, Event.RESET)
@@ -48,9 +54,18 @@ def _reset(core: Record, block: Record, block_address: int) -> int:
 
 @kernel
 def _tare(core: Record) -> int:
-    """Make the mean of the unloaded load cell the new zero."""
-    if core.mode != Mode.OFF or core.outputs.supply != SUPPLY_OFF:
+    """Make the mean of the load cell the new zero, where it is unloaded, at rest and to be believed."""
+    if core.mode != Mode.OFF:
         return Reply.WRONG_MODE
+    offset_n = core.sample.untared_mean_n
+    settings = core.settings
+    rested = core.mode_ticks * settings.period_s >= TARE_REST_S
+    bled = core.inputs.supply_pressure_pa <= TARE_BLED_PA
+    small = abs(offset_n) <= TARE_SHARE * settings.force_range_n
+    scatter_n = abs(core.inputs.force_n - offset_n)
+    steady = scatter_n <= TARE_SCATTER_SHARE * settings.force_range_n
+    if core.sample.faults != 0 or not (rested and bled and small and steady):
+        return Reply.CAUSE_PRESENT
     core.sample.tare_n = core.sample.untared_mean_n
     return Reply.ACCEPTED
 
@@ -63,14 +78,17 @@ def _adopt_small(core: Record, block: Record, opcode: int, bank: int) -> int:
     if is_run(core.mode):
         return Reply.WRONG_MODE
     if opcode == Opcode.ADOPT_GAINS:
-        if not gains_are_valid(block.gains[bank]):
+        if not gains_are_valid(block.gains[bank], core.settings.period_s):
             return Reply.INVALID_BANK
         block.active_gains = bank
+        core.has_gains = 1
         adopt_gains(block.gains[bank], core.law, core.settings.period_s)
         return Reply.ACCEPTED
     if not interlocks_are_valid(block.interlocks[bank]):
         return Reply.INVALID_BANK
+    keep_trips(core, block, block.interlocks[block.active_interlocks], block.interlocks[bank])
     block.active_interlocks = bank
+    core.has_interlocks = 1
     core.violated_ticks[:] = 0
     return Reply.ACCEPTED
 
@@ -98,6 +116,9 @@ def _adopt_program(core: Record, block: Record, bank: int) -> int:
     program = block.programs[bank]
     if not (table_is_bounded(program.force) and table_is_bounded(program.motion)):
         return Reply.INVALID_BANK
+    if core.checking_command != core.commands_seen:
+        core.checking_command = core.commands_seen
+        core.checked_segments = 0
     checked = core.checked_segments
     forces = program.force.count
     if checked < forces:
@@ -107,13 +128,11 @@ def _adopt_program(core: Record, block: Record, bank: int) -> int:
             core, program.motion, checked - forces, core.settings.displacement_limit_m
         )
         checked = checked + forces if checked >= 0 else checked
-    if checked < 0:
-        core.checked_segments = 0
-        return Reply.INVALID_BANK
     core.checked_segments = checked
+    if checked < 0:
+        return Reply.INVALID_BANK
     if checked < forces + program.motion.count:
         return Reply.BUSY
-    core.checked_segments = 0
     block.active_program = bank
     core.has_program = 1
     return Reply.ACCEPTED
@@ -131,10 +150,12 @@ def _carry_out(core: Record, block: Record, block_address: int, opcode: int, arg
         return _tare(core)
     if not 0 <= opcode < len(_EVENT_OF) or _EVENT_OF[opcode] < 0:
         return Reply.UNKNOWN
+    if opcode == Opcode.PRESSURISE and (core.has_gains == 0 or core.has_interlocks == 0):
+        return Reply.NOT_CONFIGURED
     if core.trips != 0 and opcode in (Opcode.PRESSURISE, Opcode.START, Opcode.RESUME):
         return Reply.CAUSE_PRESENT
     if opcode == Opcode.START:
-        if core.has_program == 0:
+        if core.has_program == 0 or argument < 1:
             return Reply.NO_PROGRAM
         program = block.programs[block.active_program]
         return _done(start_run(core, program, block_address, _EVENT_OF[opcode], argument))
@@ -150,7 +171,7 @@ def take_command(core: Record, block: Record, block_address: int, now_ns: int) -
     stops = command.opcode == Opcode.STOP or command.opcode == Opcode.SHUTDOWN
     if command.sequence != core.commands_seen:
         reply: int = Reply.REPLAYED
-    elif now_ns > command.expires_ns and not stops and core.checked_segments == 0:
+    elif now_ns > command.expires_ns and not stops:
         reply = Reply.EXPIRED
     elif command.lease < core.lease and not stops:
         reply = Reply.STALE_LEASE

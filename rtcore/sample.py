@@ -4,8 +4,6 @@ import math
 
 from rtcore.compiled import Record, kernel
 
-FULL_SCALE = 0.9999  # of a converter's range: at its end a reading is saturated
-
 
 @kernel
 def sensor_is_faulty(sensor: Record, value: float, full_scale: float, frozen_ticks: int) -> bool:
@@ -13,7 +11,7 @@ def sensor_is_faulty(sensor: Record, value: float, full_scale: float, frozen_tic
     sensor.repeats = sensor.repeats + 1 if value == sensor.last else 0
     sensor.last = value
     frozen = frozen_ticks > 0 and sensor.repeats >= frozen_ticks
-    return frozen or not (abs(value) < FULL_SCALE * full_scale)
+    return frozen or not (abs(value) < full_scale)
 
 
 @kernel
@@ -28,7 +26,7 @@ def take_sample(settings: Record, inputs: Record, sample: Record) -> None:
         sample.velocity, inputs.velocity_m_s, settings.velocity_range_m_s, settings.frozen_ticks
     ):
         faults += 1
-    if not (abs(inputs.displacement_m) < FULL_SCALE * settings.displacement_range_m):
+    if not (abs(inputs.displacement_m) < settings.displacement_range_m):
         faults += 1
     if not math.isfinite(inputs.supply_pressure_pa):
         faults += 1

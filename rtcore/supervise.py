@@ -4,7 +4,7 @@ import numpy as np
 
 from rtcore.codes import EventKind
 from rtcore.compiled import Record, kernel
-from rtcore.interlocks import Action
+from rtcore.interlocks import MAX_DETECTORS, Action
 from rtcore.io import SUPPLY_HIGH, SUPPLY_LOW, SUPPLY_OFF
 from rtcore.memory.rings import publish_event
 from rtcore.modes import NO_TRANSITION, Event, Mode, is_pressurised, is_run, next_mode
@@ -28,8 +28,10 @@ def apply_event(core: Record, block_address: int, event: int) -> bool:
         core.force.block = -1
         core.force.cycle = 0
         core.trip_after_stop = 0
-        if after != Mode.TRIPPED:
+        if after == Mode.READY:
             core.run = 0
+        elif core.run != 0 and core.tail_ticks == 0:
+            core.tail_ticks = int(RUN_TAIL_S / core.settings.period_s)
     return True
 
 
@@ -39,9 +41,10 @@ def start_run(core: Record, program: Record, block_address: int, event: int, run
     if not apply_event(core, block_address, event):
         return False
     core.run = run
-    core.program_ended = 0
+    core.tail_ticks = 0
     start(core.force, program.force, 0.0, core.settings.period_s)
     start(core.motion, program.motion, core.motion.value, core.settings.period_s)
+    publish_event(block_address, core.tick, EventKind.BLOCK, core.force.block, run, 0.0)
     return True
 
 
@@ -65,13 +68,14 @@ def progress(core: Record, block_address: int) -> None:
     if core.mode == Mode.PRESSURISING and core.inputs.supply_pressure_pa >= settings.ready_pa:
         apply_event(core, block_address, Event.PRESSURE_REACHED)
     elif core.mode == Mode.RUNNING and core.force.ended != 0:
-        core.program_ended = 1
         publish_event(block_address, core.tick, EventKind.PROGRAM_ENDED, core.run, 0.0, 0.0)
         apply_event(core, block_address, Event.STOP)
     elif core.mode == Mode.STOPPING and core.force.stop_ticks >= settings.stop_fade_ticks:
         apply_event(core, block_address, Event.TRIP if core.trip_after_stop != 0 else Event.STOPPED)
-    elif core.mode == Mode.TRIPPED and core.mode_ticks * settings.period_s > RUN_TAIL_S:
-        core.run = 0
+    if core.tail_ticks > 0:
+        core.tail_ticks -= 1
+        if core.tail_ticks == 0:
+            core.run = 0
 
 
 @kernel
@@ -87,6 +91,19 @@ def wanted_supply(core: Record) -> int:
     if core.mode == Mode.PRESSURISING and not filled and core.outputs.supply != SUPPLY_HIGH:
         return SUPPLY_LOW
     return SUPPLY_HIGH
+
+
+@kernel
+def keep_trips(core: Record, block: Record, before: Record, after: Record) -> None:
+    """Under a new table a latched bit stays only where it still means the same detector."""
+    for i in range(MAX_DETECTORS):
+        bit = np.uint64(1) << np.uint64(i)
+        old, new = before.detectors[i], after.detectors[i]
+        same = old.quantity == new.quantity and old.comparison == new.comparison
+        if core.trips & bit and not (i < after.count and same):
+            core.trips ^= bit
+            if block.first_out == i:
+                block.first_out = -1
 
 
 @kernel

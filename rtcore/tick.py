@@ -10,11 +10,11 @@ from rtcore.compiled import Record, carray, kernel, pointer
 from rtcore.control.law import closed_loop, open_loop
 from rtcore.memory.rings import next_record_address, publish_event, publish_record
 from rtcore.memory.snapshot import write_snapshot
-from rtcore.modes import Mode, is_closed_loop, is_run
+from rtcore.modes import Event, Mode, is_closed_loop, is_run
 from rtcore.obey import take_command
 from rtcore.program.generator import generate, rest
 from rtcore.sample import take_sample
-from rtcore.supervise import progress, react, wanted_supply
+from rtcore.supervise import apply_event, progress, react, wanted_supply
 
 RETURN_M_S = 0.01  # at which the unit under test goes back to its middle when the rig is ready
 
@@ -64,7 +64,9 @@ def tick(
             core.force.branch,
             settings.period_s,
         )
-    else:
+    if not abs(core.outputs.valve_command) <= 1.0:  # no number: nothing that a valve should see
+        apply_event(core, block_address, Event.TRIP)
+    if not is_closed_loop(core.mode):
         open_loop(core.law, core.force.value, core.sample.force_n)
         core.outputs.valve_command = 0.0
 

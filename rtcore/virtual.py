@@ -71,10 +71,11 @@ class Virtual:
         self.keep_states = False
         self.states: npt.NDArray[np.float64] = np.empty((0, STATES))
         self._events = event_reader(self.block)
-        self.block.fields["gains"][0] = gains
-        self.block.fields["interlocks"][0] = interlocks
-        self.command(Opcode.ADOPT_GAINS, 0)
-        self.command(Opcode.ADOPT_INTERLOCKS, 0)
+        self.block.fields["gains"][1] = gains
+        self.block.fields["interlocks"][1] = interlocks
+        for opcode in (Opcode.ADOPT_GAINS, Opcode.ADOPT_INTERLOCKS):
+            if self.command(opcode, 1) != Reply.ACCEPTED:
+                raise ValueError(f"the loop does not take these {opcode.name[6:].lower()}")
 
     @property
     def tick(self) -> int:
@@ -105,7 +106,8 @@ class Virtual:
 
     def command(self, opcode: Opcode, argument: int = 0) -> Reply:
         """Post a command and run until it is answered."""
-        sequence = post(self.block, opcode, argument)
+        now_ns = self.tick * int(self.block.fields["period_ns"])
+        sequence = post(self.block, opcode, argument, now_ns=now_ns)
         while (answer := acknowledgement(self.block, sequence)) is None:
             self.advance(1)
         return Reply(answer[0])

@@ -120,7 +120,8 @@ def _turned(piece: Piece, state: State) -> float:
 
 def _extent(piece: Piece, before: State, end: State) -> Extent:
     ticks = ticks_of(piece, before)
-    cycles = math.floor(_turned(piece, before) + 0.5) if piece.counts else 0
+    half_a_tick = 0.5 * piece.frequency_to_hz * RIG.period_s  # a whole cycle may end between ticks
+    cycles = math.floor(_turned(piece, before) + half_a_tick + 1e-9) if piece.counts else 0
     mean, amplitude = _began(piece, before)
     low = min(before.value, end.value, mean - amplitude, end.mean - end.amplitude)
     high = max(before.value, end.value, mean + amplitude, end.mean + end.amplitude)

@@ -13,6 +13,7 @@ _TEXT = {
     Reply.CAUSE_PRESENT: (Code.CAUSE_PRESENT, "what tripped the rig is still there"),
     Reply.INVALID_BANK: (Code.INVALID_BANK, "the loop found the values invalid"),
     Reply.NO_PROGRAM: (Code.NO_PROGRAM, "the loop has no test to run"),
+    Reply.NOT_CONFIGURED: (Code.BUSY, "gains and interlocks are still on their way; try again"),
     Reply.BUSY: (Code.BUSY, "the loop is still checking what it was sent; try again"),
 }
 

@@ -78,7 +78,9 @@ def compensation_step(
     comp.branch_share = _faded(
         comp.branch_share, gains.compensate != 0 and branch != Branch.EXCLUDED, step
     )
-    comp.notch_share = _faded(comp.notch_share, branch == Branch.WITH_NOTCH, step)
+    comp.notch_share = _faded(
+        comp.notch_share, branch == Branch.WITH_NOTCH and load_hz >= LOWEST_NOTCH_HZ, step
+    )
 
     smooth = filter_step(comp.low_pass, filter_step(comp.lead, velocity_m_s))
     notched = filter_step(comp.notch, smooth)

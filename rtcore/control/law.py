@@ -1,5 +1,7 @@
 """The control law: PID, feed-forward and compensation, limited in size and slew."""
 
+import math
+
 import numpy as np
 
 from rtcore.compiled import Record, kernel
@@ -43,14 +45,17 @@ def closed_loop(
     fed_forward = compensation_step(
         gains, law.compensation, velocity_m_s, load_hz, branch, period_s
     )
-    wanted = pid_step(gains, law.pid, setpoint_n, force_n, fed_forward, period_s)
     step = gains.valve_slew_per_s * period_s
-    law.valve = min(max(wanted, law.valve - step), law.valve + step)
+    lowest = max(-gains.valve_limit, law.valve - step)
+    highest = min(gains.valve_limit, law.valve + step)
+    law.valve = pid_step(
+        gains, law.pid, setpoint_n, force_n, fed_forward, lowest, highest, period_s
+    )
     return law.valve
 
 
 @kernel
-def gains_are_valid(gains: Record) -> bool:
+def gains_are_valid(gains: Record, period_s: float) -> bool:
     """Whether the loop may run with these gains: finite, and each within what it can mean."""
     for value in (gains.k_p, gains.k_i, gains.k_d, gains.k_ff, gains.ff_v, gains.ff_a):
         if not abs(value) < 1e6:
@@ -63,6 +68,8 @@ def gains_are_valid(gains: Record) -> bool:
     ):
         if not 0.0 < value < 1e6:
             return False
+    if gains.low_pass_order == 2 and not gains.low_pass_rad_s * period_s < math.pi:
+        return False  # beyond half the loop rate the prewarped filter is unstable
     damped = 0.0 < gains.low_pass_damping < 10.0 and 0.0 < gains.notch_damping < 10.0
     limited = 0.0 < gains.valve_limit <= 1.0 and gains.valve_slew_per_s > 0.0
     return damped and limited and 1e-4 <= gains.fade_s <= 10.0 and 1 <= gains.low_pass_order <= 2

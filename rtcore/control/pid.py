@@ -27,9 +27,11 @@ def pid_step(
     setpoint_n: float,
     force_n: float,
     compensation: float,
+    lowest: float,
+    highest: float,
     period_s: float,
 ) -> float:
-    """The saturated valve command, -valve_limit…+valve_limit.
+    """The valve command, saturated at `lowest` and `highest`.
 
     V = K_P e + I + K_D d + K_FF ΔF_set/T + compensation; the integrator takes its new value only where V
     is not saturated, or where the error drives it out of saturation.
@@ -46,7 +48,7 @@ def pid_step(
         + gains.k_ff * rate_n_s
         + compensation
     )
-    valve = min(max(wanted, -gains.valve_limit), gains.valve_limit)
+    valve = min(max(wanted, lowest), highest)
     if wanted == valve or (wanted - valve) * error_n < 0.0:
         pid.integral = integral
     pid.error_n = error_n

@@ -12,6 +12,9 @@ from rtcore.rig.parameters import RigParameters
 from rtcore.rig.world import WORLD, make_world, read_world, write_world
 from rtcore.tick import tick
 
+READY_SHARE = 19.0 / 21.0  # of high pressure: 190 of 210 bar
+LOW_SHARE = 5.0 / 7.0  # of low pressure: enough to go on to high
+
 
 @kernel
 def cycle(
@@ -39,11 +42,16 @@ class SimulatedIo:
     def __init__(
         self, rig: RigParameters, seed: int, block: Block, settings: dict[str, float] | None = None
     ) -> None:
+        inside = 1.0 - 1.5 / 2.0 ** (
+            rig.sensors.bits - 1
+        )  # the last step of a converter is its end
         ranges = {
-            "force_range_n": rig.sensors.force_range_n,
-            "velocity_range_m_s": rig.sensors.velocity_range_m_s,
-            "displacement_range_m": rig.sensors.displacement_range_m,
+            "force_range_n": inside * rig.sensors.force_range_n,
+            "velocity_range_m_s": inside * rig.sensors.velocity_range_m_s,
+            "displacement_range_m": inside * rig.sensors.displacement_range_m,
             "displacement_limit_m": rig.unit.stroke_m,
+            "ready_pa": READY_SHARE * rig.supply.high_pa,
+            "low_reached_pa": LOW_SHARE * rig.supply.low_pa,
         }
         self.block = block
         self.cores = make_core(block.period_s, ranges | (settings or {}))

@@ -25,7 +25,13 @@ class CommandsFull(Exception):
 
 
 def post(
-    block: Block, opcode: Opcode, argument: int = 0, *, lease: int = 0, time_to_live_s: float = 0.5
+    block: Block,
+    opcode: Opcode,
+    argument: int = 0,
+    *,
+    lease: int = 0,
+    time_to_live_s: float = 0.5,
+    now_ns: int | None = None,
 ) -> int:
     """Post a command and return its sequence number. One thread of one process may post.
 
@@ -39,7 +45,7 @@ def post(
     slot["opcode"] = opcode
     slot["argument"] = argument
     slot["lease"] = lease
-    slot["expires_ns"] = monotonic_ns() + int(time_to_live_s * 1e9)
+    slot["expires_ns"] = (monotonic_ns() if now_ns is None else now_ns) + int(time_to_live_s * 1e9)
     write_index(block.address + _POSTED, sequence + 1)
     return sequence
 

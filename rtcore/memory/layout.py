@@ -7,9 +7,9 @@ import numpy as np
 from rtcore.channels import TELEMETRY
 from rtcore.codes import EventKind, Opcode, Reply
 from rtcore.control.gains import GAINS
-from rtcore.interlocks import INTERLOCKS
+from rtcore.interlocks import INTERLOCKS, Action, Comparison, Quantity
 from rtcore.modes import Mode
-from rtcore.program.segments import PROGRAM
+from rtcore.program.segments import PROGRAM, Branch, Segment
 
 MAGIC = 0x4749524543524F46  # "FORCERIG", little-endian
 COMMAND_SLOTS = 64
@@ -49,8 +49,7 @@ BLOCK = np.dtype(
         ("period_ns", "i8"),
         ("loop_pid", "i8"),
         ("loop_started_ns", "i8"),  # monotonic clock; names this life of the loop
-        ("app_pid", "i8"),
-        # Each of these is written by one process only, so each has a cache line of its own.
+        # Two processes write these: each has a cache line of its own.
         ("loop_heartbeat_ns", "i8"),
         ("_pad0", "i8", (8,)),
         ("app_heartbeat_ns", "i8"),
@@ -82,12 +81,15 @@ BLOCK = np.dtype(
 )
 
 
+_CODES = (Opcode, Reply, EventKind, Mode, Segment, Branch, Quantity, Comparison, Action)
+
+
 def _layout_hash() -> int:
     described = repr(
         (
             BLOCK.descr,
             TELEMETRY.descr,
-            [[(m.name, m.value) for m in e] for e in (Opcode, Reply, EventKind, Mode)],
+            [[(m.name, m.value) for m in e] for e in _CODES],
         )
     )
     return int.from_bytes(hashlib.sha256(described.encode()).digest()[:7], "little")

@@ -83,11 +83,11 @@ class RingReader:
         published = self.published
         oldest = max(0, published - slots + 1)
         first = max(self.position, oldest)
-        last = min(published, first + at_most)
+        last = max(first, min(published, first + at_most))
         records = self.ring[np.arange(first, last) % slots]
         # What the writer reached while we copied may be torn: it is lost, and counted.
         overtaken = min(max(0, self.published - slots + 1 - first), last - first)
-        lost = first - self.position + overtaken
+        lost = max(0, first - self.position) + overtaken
         self.position = last
         return Batch(records[overtaken:], lost)
 

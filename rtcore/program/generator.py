@@ -94,7 +94,7 @@ def _enter(g: Record, s: Record, period_s: float) -> None:
     g.tick = 0
     g.ticks = s.ticks
     g.from_value = g.value
-    if s.block != g.block:
+    if s.block != g.block and s.kind != Segment.END and s.kind != Segment.REPEAT:
         g.cycles_before = 0
         g.cycle = 0
         g.block = s.block
@@ -126,7 +126,7 @@ def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
         g.value = g.mean + g.amplitude * math.sin(2.0 * math.pi * (phase - math.floor(phase)))
         return
     target = s.target
-    if s.kind == Segment.HOLD or s.kind == Segment.END:
+    if s.kind in (Segment.HOLD, Segment.END, Segment.REPEAT):
         rest(g, g.from_value)
     elif s.kind == Segment.LINEAR:
         rest(g, g.from_value + share * (target - g.from_value))
@@ -143,7 +143,9 @@ def _leave(g: Record, s: Record, period_s: float) -> None:
     if s.kind == Segment.HARMONIC:
         phase = _phase(g, s, g.ticks, period_s)
         if s.counts != 0:
-            g.cycles_before += math.floor(phase - g.from_phase + 0.5)
+            g.cycles_before += math.floor(
+                phase - g.from_phase + 0.5 * g.frequency_hz * period_s + 1e-9
+            )
         g.from_phase = phase - math.floor(phase)
 
 
@@ -212,7 +214,8 @@ def generate(
     _evaluate(g, s, g.tick, period_s)
     g.cycle = g.cycles_before
     if s.kind == Segment.HARMONIC and s.counts != 0:
-        g.cycle += math.floor(g.from_frequency_hz * g.tick * period_s + 1e-9)
+        turned = _phase(g, s, g.tick, period_s) - g.from_phase
+        g.cycle += math.floor(turned + 1e-9)
     if g.hold_ticks > 0:
         g.value = g.mean + (g.value - g.mean) * fade(g.hold_ticks, hold_fade_ticks)
     if g.stop_ticks > 0:

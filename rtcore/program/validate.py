@@ -5,6 +5,8 @@ import math
 from rtcore.compiled import Record, kernel
 from rtcore.program.segments import MAX_DEPTH, MAX_SEGMENTS, Segment
 
+SLOWEST_1_S, FASTEST_1_S = 1e-6, 1e4  # rates of a ramp, as shares of the limit
+
 
 @kernel
 def table_is_bounded(table: Record) -> bool:
@@ -46,11 +48,18 @@ def segment_is_valid(s: Record, index: int, limit: float, frequency_limit_hz: fl
             return False
         if s.continues != 0:
             return True
-        mean = 0.0 if math.isnan(s.mean_from) else s.mean_from
+        unknown = (
+            limit if s.amplitude_from != 0.0 else 0.0
+        )  # the setpoint as it is, up to the limit
+        mean = unknown if math.isnan(s.mean_from) else s.mean_from
         started = 0.0 < s.frequency_from_hz < frequency_limit_hz and math.isfinite(s.phase_cycles)
         return started and _within(abs(mean) + abs(s.amplitude_from), limit)
     if s.kind in (Segment.HOLD, Segment.END):
         return True
-    if s.kind == Segment.LINEAR and s.ticks == 0 and not (s.rate_per_s > 0.0):
+    if (
+        s.kind == Segment.LINEAR
+        and s.ticks == 0
+        and not (SLOWEST_1_S * limit <= s.rate_per_s <= FASTEST_1_S * limit)
+    ):
         return False
     return _within(s.target, limit)

@@ -21,7 +21,9 @@ def database(tmp_path: Path) -> Database:
 
 
 def a_run(**values: Any) -> Run:
-    frozen: dict[str, Any] = {name: {} for name in ("definition", "plan", "controller", "interlocks", "rig")}
+    frozen: dict[str, Any] = {
+        name: {} for name in ("definition", "plan", "controller", "interlocks", "rig")
+    }
     return Run(
         **frozen,
         **{

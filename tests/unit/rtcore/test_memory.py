@@ -63,6 +63,15 @@ def test_a_lapped_reader_knows_how_many_it_missed(block: Block) -> None:
     assert len(batch.records) >= slots - 1
 
 
+def test_a_reader_ahead_of_the_writer_waits(block: Block) -> None:
+    publish(block, range(7))
+    reader = telemetry_reader(block, position=17)
+    assert reader.read().lost == 0
+    assert reader.position == 17
+    publish(block, range(7, 20))
+    assert list(reader.read().records["tick"]) == [17, 18, 19]
+
+
 def test_events_are_kept_and_numbered(block: Block) -> None:
     reader = event_reader(block)
     for i in range(EVENT_SLOTS + 10):

@@ -246,6 +246,15 @@ def test_nothing_is_adopted_during_a_run(running: Virtual) -> None:
         {"kind": 2, "target": np.nan, "ticks": 10},
         {"kind": 3, "target": np.nan, "ticks": 10},
         {"kind": 2, "target": 1e3, "rate_per_s": 0.0},
+        {"kind": 2, "target": 1e3, "rate_per_s": np.inf},
+        {"kind": 2, "target": 40e3, "rate_per_s": 1e-15},
+        {
+            "kind": 4,
+            "ticks": 9,
+            "amplitude_from": 50e3,
+            "frequency_from_hz": 1,
+            "frequency_to_hz": 1,
+        },
         {"kind": 4, "ticks": 10, "amplitude_to": 60e3, "frequency_to_hz": 1.0, "continues": 1},
         {"kind": 4, "ticks": 10, "amplitude_to": 1e3, "frequency_to_hz": 3e3, "continues": 1},
         {"kind": 4, "ticks": 10, "amplitude_to": np.nan, "frequency_to_hz": 1.0, "continues": 1},
@@ -287,10 +296,118 @@ def test_bad_gains_are_refused(virtual: Virtual) -> None:
     for name, value in (("k_p", np.nan), ("valve_limit", 1.5), ("low_pass_order", 3)):
         wrong = gains()
         wrong[name] = value
-        virtual.block.fields["gains"][1] = wrong
-        assert virtual.command(Opcode.ADOPT_GAINS, 1) == Reply.INVALID_BANK
+        virtual.block.fields["gains"][0] = wrong
+        assert virtual.command(Opcode.ADOPT_GAINS, 0) == Reply.INVALID_BANK
     assert virtual.command(Opcode.ADOPT_GAINS, 5) == Reply.INVALID_BANK
-    assert virtual.block.fields["active_gains"] == 0
+    assert virtual.block.fields["active_gains"] == 1
+
+
+def test_there_is_no_pressure_without_gains_and_interlocks() -> None:
+    rig = make()
+    rig.command(Opcode.RESET)
+    for name in ("has_gains", "has_interlocks"):
+        rig.io.core[name] = 0
+        assert rig.command(Opcode.PRESSURISE) == Reply.NOT_CONFIGURED
+        rig.io.core[name] = 1
+    assert rig.command(Opcode.PRESSURISE) == Reply.ACCEPTED
+
+
+def test_a_rig_does_not_begin_with_gains_that_the_loop_refuses() -> None:
+    wrong = gains()
+    wrong["k_p"] = np.nan
+    with pytest.raises(ValueError, match="gains"):
+        Virtual(wrong, interlocks())
+    unstable = gains()
+    unstable["low_pass_order"] = 2
+    unstable["low_pass_rad_s"] = 2.0 * np.pi * 2100.0
+    with pytest.raises(ValueError, match="gains"):
+        Virtual(unstable, interlocks())
+
+
+def test_a_valve_command_that_is_no_number_trips_in_its_tick(virtual: Virtual) -> None:
+    virtual.bring_to_ready()
+    virtual.io.core["law"]["compensation"]["lead"]["s1"] = np.nan
+    records = virtual.advance(4)
+    assert records["mode"][0] == Mode.TRIPPED
+    assert not records["valve_command"].any()
+
+
+def test_a_detector_of_a_new_table_is_not_hidden_by_an_old_trip(virtual: Virtual) -> None:
+    rig = make(detector(Quantity.FORCE_N, 1e-3, Action.INDICATE))
+    rig.bring_to_ready()
+    rig.advance(100)
+    assert rig.io.core["trips"] == 1
+    rig.block.fields["interlocks"][0] = interlocks(
+        detector(Quantity.SUPPLY_PRESSURE_PA, 1.0, Action.SHUTDOWN)
+    )
+    assert rig.command(Opcode.ADOPT_INTERLOCKS, 0) == Reply.ACCEPTED
+    rig.advance(2)
+    assert rig.mode == Mode.TRIPPED
+    assert rig.block.fields["first_out"] == 0
+
+
+def test_a_slew_limit_does_not_wind_the_integrator_up() -> None:
+    """The same step under a slow valve overshoots no more than under a fast one, and settles."""
+    limited = gains()
+    limited["valve_slew_per_s"] = 5.0
+    peaks = []
+    for settings in (gains(), limited):
+        rig = Virtual(settings, interlocks())
+        rig.bring_to_ready()
+        rig.load_program(program(step(5000.0, 1.0)))
+        rig.command(Opcode.START, 1)
+        force = rig.advance(3500)["force_n"]
+        peaks.append(force.max())
+        assert force[-1000:].std() < 20.0
+    assert peaks[1] < 1.1 * peaks[0]
+
+
+def test_a_reset_does_not_erase_why_a_stop_ends_latched(running: Virtual) -> None:
+    running.app_beats = False
+    running.advance(2200)
+    assert running.mode == Mode.STOPPING
+    running.app_beats = True
+    assert running.command(Opcode.RESET) == Reply.CAUSE_PRESENT
+    running.advance(2200)
+    assert running.mode == Mode.TRIPPED
+    assert running.io.core["trips"] == 0b10
+    assert running.command(Opcode.RESET) == Reply.ACCEPTED
+
+
+def test_a_reset_does_not_cut_the_recording_of_a_trip(running: Virtual) -> None:
+    running.command(Opcode.SHUTDOWN)
+    running.advance(40)
+    running.command(Opcode.RESET)
+    records = running.advance(4000)
+    assert (records["run"] == 7).sum() == pytest.approx(0.5 / PERIOD_S - 41, abs=3)
+
+
+def test_blocks_are_reported_from_the_first_on(virtual: Virtual) -> None:
+    virtual.bring_to_ready()
+    virtual.load_program(program([*step(100.0, 0.01, block=0), *step(0.0, 0.01, block=1)]))
+    virtual.run()
+    assert kinds(virtual, EventKind.BLOCK) == [0, 1]
+
+
+def test_a_run_needs_a_number(virtual: Virtual) -> None:
+    virtual.bring_to_ready()
+    virtual.load_program(LONG)
+    assert virtual.command(Opcode.START, 0) == Reply.NO_PROGRAM
+    assert virtual.mode == Mode.READY
+
+
+def test_a_program_refilled_while_it_is_checked_is_not_half_checked(virtual: Virtual) -> None:
+    """The adoption of a stalled loop is refused by its expiry, and the next begins at the head."""
+    virtual.block.fields["programs"][1] = program([HOLD_ROW | {"ticks": 1}] * 3000)
+    first = post(virtual.block, Opcode.ADOPT_PROGRAM, 1, now_ns=0)
+    virtual.advance(20)
+    bad = [{"kind": 2, "target": 1e6, "ticks": 10}, *[HOLD_ROW | {"ticks": 1}] * 700]
+    virtual.block.fields["programs"][1] = program(bad)
+    virtual.block.fields["commands"][first % 64]["expires_ns"] = 0
+    virtual.advance(1)
+    assert reply_to(virtual, first) == Reply.EXPIRED
+    assert virtual.command(Opcode.ADOPT_PROGRAM, 1) == Reply.INVALID_BANK
+    assert virtual.io.core["has_program"] == 0
 
 
 def test_a_replayed_a_late_and_a_stale_command_are_refused(virtual: Virtual) -> None:
@@ -325,13 +442,37 @@ def reply_to(rig: Virtual, sequence: int) -> int:
     return int(rig.block.fields["acknowledgements"][sequence % 64]["reply"])
 
 
+def off_with_offset(rig: Virtual, offset_n: float, seconds: float) -> None:
+    rig.command(Opcode.RESET)
+    rig.io.core["sample"]["tare_n"] = -offset_n
+    rig.advance(round(seconds / PERIOD_S))
+
+
 def test_the_tare_makes_the_unloaded_mean_zero(virtual: Virtual) -> None:
-    virtual.command(Opcode.RESET)
-    virtual.io.world["y"][17] = 0.0
-    virtual.io.core["sample"]["tare_n"] = 250.0
-    assert virtual.advance(8000)["force_n"][-1000:].mean() == pytest.approx(-250.0, abs=2.0)
+    off_with_offset(virtual, 250.0, 3.0)
+    assert virtual.advance(1000)["force_n"].mean() == pytest.approx(250.0, abs=3.0)
     assert virtual.command(Opcode.TARE) == Reply.ACCEPTED
     assert virtual.advance(1000)["force_n"].mean() == pytest.approx(0.0, abs=3.0)
+
+
+def test_the_tare_is_refused_until_the_rig_has_rested(virtual: Virtual) -> None:
+    off_with_offset(virtual, 0.0, 0.5)
+    assert virtual.command(Opcode.TARE) == Reply.CAUSE_PRESENT
+
+
+def test_a_load_is_no_offset(virtual: Virtual) -> None:
+    virtual.bring_to_ready()
+    virtual.load_program(program(step(20e3, 0.3)))
+    virtual.command(Opcode.START, 1)
+    virtual.advance(1000)
+    virtual.command(Opcode.SHUTDOWN)
+    virtual.command(Opcode.RESET)
+    replies = []
+    for _ in range(20):
+        replies.append(virtual.command(Opcode.TARE))
+        virtual.advance(200)
+    assert set(replies) == {Reply.CAUSE_PRESENT}
+    assert virtual.io.core["sample"]["tare_n"] == 0.0
 
 
 def test_a_frozen_and_a_saturated_load_cell_are_faults() -> None:
