@@ -17,6 +17,10 @@ _TEXT = {
     Reply.BUSY: (Code.BUSY, "the loop is still checking what it was sent; try again"),
 }
 
+_NOT_TO_BE_TARED = (
+    "the load cell must be unloaded and at rest: pressure off for two seconds, "
+    "and an offset below 2 % of its range"
+)
 
 _SPOKEN = {
     Opcode.ADOPT_GAINS: "take over the gains",
@@ -33,4 +37,6 @@ def as_refusal(opcode: Opcode, answer: Answer | Refusal) -> Refusal | None:
     if answer.reply is Reply.ACCEPTED:
         return None
     code, reason = _TEXT[answer.reply]
+    if opcode is Opcode.TARE and answer.reply is Reply.CAUSE_PRESENT:
+        reason = _NOT_TO_BE_TARED
     return Refusal(code, f"Cannot {_SPOKEN.get(opcode, opcode.name.lower())}: {reason}")

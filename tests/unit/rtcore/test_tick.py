@@ -364,12 +364,10 @@ def test_a_slew_limit_does_not_wind_the_integrator_up() -> None:
 
 def test_a_reset_does_not_erase_why_a_stop_ends_latched(running: Virtual) -> None:
     running.app_beats = False
-    running.advance(2200)
-    assert running.mode == Mode.STOPPING
+    assert running.advance(2200)["mode"][-1] == Mode.STOPPING
     running.app_beats = True
     assert running.command(Opcode.RESET) == Reply.CAUSE_PRESENT
-    running.advance(2200)
-    assert running.mode == Mode.TRIPPED
+    assert running.advance(2200)["mode"][-1] == Mode.TRIPPED
     assert running.io.core["trips"] == 0b10
     assert running.command(Opcode.RESET) == Reply.ACCEPTED
 

@@ -51,7 +51,7 @@ def test_every_preset_can_be_named_and_is_adopted_by_the_loop(name: str) -> None
     record = to_record(settings)
     assert record["ff_v"] == COMPENSATORS[name]["ff_v"]
     assert record["low_pass_order"] == COMPENSATORS[name]["low_pass_order"]
-    assert gains_are_valid(record.reshape(1)[0])
+    assert gains_are_valid(record.reshape(1)[0], 250e-6)
     assert _settings(to_data(settings)) == settings
 
 
