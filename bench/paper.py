@@ -14,8 +14,7 @@ from bench.references import PERIOD_S, own_states
 from bench.report import Figure, progress, show
 from bench.stepped_sine import Extreme, SteppedSine
 from rtcore.rig.constants import plant_constants
-from rtcore.rig.plant import U_VALVE
-from rtcore.rig.world import SUBSTEPS
+from rtcore.rig.plant import SUBSTEPS, U_VALVE
 
 TOLERANCE_DB, TOLERANCE_HZ = 0.1, 1.0
 

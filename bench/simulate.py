@@ -12,7 +12,7 @@ from bench.equal_accuracy import CASES, SOLVERS, Matched, match, started
 from bench.references import PERIOD_S, own_states, solver_states
 from bench.report import Figure, progress, show, tracked
 from rtcore.rig.parameters import load_rig
-from rtcore.rig.world import SUBSTEPS
+from rtcore.rig.plant import SUBSTEPS
 
 AT_LEAST_REAL_TIME, AIM = 100.0, 200.0
 AT_LEAST_LSODA = 70.0

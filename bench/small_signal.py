@@ -14,8 +14,7 @@ from bench.sines import decibels, fundamental
 from rtcore.rig.constants import plant_constants
 from rtcore.rig.linear import FORCE, linearise, settle
 from rtcore.rig.parameters import RigParameters
-from rtcore.rig.plant import U_VALVE
-from rtcore.rig.world import SUBSTEPS
+from rtcore.rig.plant import SUBSTEPS, U_VALVE
 
 FREQUENCIES_HZ = (1.0, 4.0, 10.0, 20.0, 35.0, 50.0, 70.0, 85.0, 100.0, 125.0, 150.0)
 SETTLE_S, MEASURE_S = 2.0, 2.0

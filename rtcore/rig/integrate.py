@@ -26,7 +26,11 @@ from rtcore.rig.plant import (
 from rtcore.rig.servovalve import spool_motion
 
 WORK = np.dtype(
-    [("q", "f8", (FLOWS,)), *((k, "f8", (STATES,)) for k in ("k1", "k2", "k3", "k4", "z"))],
+    [
+        ("q", "f8", (FLOWS,)),
+        *((k, "f8", (STATES,)) for k in ("k1", "k2", "k3", "k4", "z")),
+        ("finer_ticks", "i8"),  # how much longer friction asks for finer steps
+    ],
     align=True,
 )
 REST = P_1  # the states from here on are behind the spool
@@ -34,6 +38,8 @@ NEAR_STOP = 0.8  # of the flapper's travel
 FINER_AT_STOP = 3
 FINER_AT_TURN = 2
 TURN = 8.0  # widths of the friction's turn, on either side
+FAST_TURN = 2.0  # widths a tick: from here on a turn rings the chain of masses
+RING_TICKS = 14  # 3.5 ms
 
 
 @kernel
@@ -86,11 +92,13 @@ def move_valve(
 
 
 @inlined
-def piston_turns(plant: Record, y: Array, dy: Array, duration_s: float) -> bool:
-    """Whether the piston's slip passes through the steep part of the friction, and passes quickly."""
-    change = abs(dy[V_R] - dy[V_B]) * duration_s
-    near = TURN / plant.coulomb_s_m
-    return abs(y[V_R] - y[V_B]) < near + change and change > 0.25 / plant.coulomb_s_m
+def finer_ticks(plant: Record, y: Array, dy: Array, duration_s: float) -> int:
+    """For how many ticks the friction asks for finer steps: while the piston turns round, and the ring of it."""
+    widths = abs(y[V_R] - y[V_B]) * plant.coulomb_s_m
+    change = abs(dy[V_R] - dy[V_B]) * duration_s * plant.coulomb_s_m
+    if widths > TURN + change or change < 0.25:
+        return 0
+    return RING_TICKS if change > FAST_TURN else 1
 
 
 @kernel
@@ -99,7 +107,8 @@ def advance(
 ) -> None:
     """Carry the state `y` over `duration_s`, in at least `substeps` steps."""
     k1, k2, k3, k4, z, q = work.k1, work.k2, work.k3, work.k4, work.z, work.q
-    if piston_turns(plant, y, k4, duration_s):
+    work.finer_ticks = max(work.finer_ticks - 1, finer_ticks(plant, y, k4, duration_s))
+    if work.finer_ticks > 0:
         substeps *= FINER_AT_TURN
     h = duration_s / substeps
     for _ in range(substeps):

@@ -24,6 +24,8 @@ G_S, G_T = (
 )  # gas volumes of the accumulators (m³): a state, because that saves a power a stage
 STATES = 22
 
+SUBSTEPS = 3  # steps of the integrator in a tick, at least
+
 # Inputs of the plant, held over a tick, (INPUTS,) float64.
 U_VALVE, U_UNIT, U_PUMP, U_BLEED = 0, 1, 2, 3
 INPUTS = (

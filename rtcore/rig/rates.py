@@ -4,12 +4,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from rtcore.rig.plant import SUBSTEPS
+
 if TYPE_CHECKING:
     from rtcore.rig.parameters import RigParameters
 
-# Runge-Kutta's limit is 2.78 a step, and a step lasts a quarter of 250 µs. Restrictions may be faster
-# near no drop: they tremble there, where a structure would fly apart.
-FASTEST_1_S = 2.6 / 62.5e-6
+# Runge-Kutta's limit is 2.78 a step. Restrictions may be faster near no drop: they tremble there, where a
+# structure would fly apart.
+FASTEST_1_S = 2.6 * SUBSTEPS / 250e-6
 
 
 def smallest_chambers(rig: "RigParameters") -> tuple[float, float]:

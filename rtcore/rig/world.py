@@ -19,14 +19,13 @@ from rtcore.rig.plant import (
     P_T,
     PLANT,
     STATES,
+    SUBSTEPS,
     U_BLEED,
     U_PUMP,
     U_UNIT,
     U_VALVE,
 )
 from rtcore.rig.sensors import SENSORS, quantise, read_sensors
-
-SUBSTEPS = 4
 
 WORLD = np.dtype(
     [

@@ -5,9 +5,8 @@ import pytest
 
 from rtcore.rig.linear import linearise
 from rtcore.rig.parameters import load_rig, rig_from
-from rtcore.rig.plant import V_1, V_2, V_B, V_R, X_1, X_2, X_B, X_R
+from rtcore.rig.plant import SUBSTEPS, V_1, V_2, V_B, V_R, X_1, X_2, X_B, X_R
 from rtcore.rig.rates import FASTEST_1_S, fastest_rate, smallest_chambers
-from rtcore.rig.world import SUBSTEPS
 from rtcore.virtual import PERIOD_S
 from tests.unit.rtcore.rig.plants import cell_force, inputs, plant, pressurised, states
 
@@ -34,11 +33,11 @@ def test_oil_makes_the_rig_stiffer() -> None:
 
 def test_the_limit_is_within_what_runge_kutta_follows() -> None:
     assert FASTEST_1_S * PERIOD_S / SUBSTEPS < 2.78
-    assert fastest_rate(load_rig()) < 0.5 * FASTEST_1_S
+    assert fastest_rate(load_rig()) < 0.6 * FASTEST_1_S
 
 
 def test_a_rig_near_the_limit_does_not_fly_apart() -> None:
-    stiff = {"structure": {"c_2": 1e4, "k_2": 5e9}}
+    stiff = {"structure": {"c_2": 5e3, "k_2": 2.8e9}}
     assert 0.9 * FASTEST_1_S < fastest_rate(rig_from(stiff)) < FASTEST_1_S
     record = plant(**stiff)
     held = inputs(800)
