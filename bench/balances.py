@@ -9,7 +9,7 @@ import numpy.typing as npt
 from rtcore.compiled import Array, Record, entry, kernel
 from rtcore.rig.derivatives import derivatives
 from rtcore.rig.fluid import specific_volume
-from rtcore.rig.integrate import settle_gas
+from rtcore.rig.integrate import settle_pressures
 from rtcore.rig.ledger import (
     ACCOUNTS,
     ENERGY_IN,
@@ -111,7 +111,7 @@ def integrate(
             z[:] = y + reach * h * dy
         y += h * total
         books += h * passed
-    settle_gas(plant, y)
+    settle_pressures(plant, y)
 
 
 @entry

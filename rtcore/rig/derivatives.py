@@ -114,7 +114,7 @@ def rig_derivatives(plant: Record, y: Array, x_s: float, u: Array, q: Array, dy:
         y[G_S] if charged else plant.hose_m3_pa,
         y[G_T],
     )
-    dy[G_S] = -into_s if charged else 0.0
+    dy[G_S] = -into_s
     dy[G_T] = -into_t
 
     dy[X_B], dy[X_R], dy[X_1], dy[X_2] = y[V_B], y[V_R], y[V_1], y[V_2]

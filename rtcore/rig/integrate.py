@@ -44,12 +44,28 @@ RING_TICKS = 14  # 3.5 ms
 
 @kernel
 def settle_gas(plant: Record, y: Array) -> None:
-    """Set the gas volumes to what the polytropic law says at these pressures."""
+    """Set the gas volumes to what belongs to these pressures; what the hoses lack counts as gas."""
     y[G_S] = plant.accumulator_supply_m3
     if y[P_S] > plant.precharge_supply_pa:
         y[G_S] *= (plant.precharge_supply_pa / y[P_S]) ** (1.0 / plant.accumulator_n)
+    else:
+        y[G_S] += plant.hose_m3_pa * (plant.precharge_supply_pa - y[P_S])
     y[G_T] = plant.accumulator_return_m3 * (plant.precharge_return_pa / y[P_T]) ** (
         1.0 / plant.accumulator_n
+    )
+
+
+@kernel
+def settle_pressures(plant: Record, y: Array) -> None:
+    """Set supply and return pressure to what belongs to these gas volumes, which keep the oil's books exactly."""
+    lacking = y[G_S] - plant.accumulator_supply_m3
+    if lacking < 0.0:
+        squeezed = plant.accumulator_supply_m3 / y[G_S]
+        y[P_S] = plant.precharge_supply_pa * squeezed**plant.accumulator_n
+    else:
+        y[P_S] = plant.precharge_supply_pa - lacking / plant.hose_m3_pa
+    y[P_T] = (
+        plant.precharge_return_pa * (plant.accumulator_return_m3 / y[G_T]) ** plant.accumulator_n
     )
 
 
@@ -127,4 +143,4 @@ def advance(
         for i in range(REST, STATES):
             y[i] += h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i])
         y[X_F], y[V_F], y[X_S] = x_f, v_f, x_end
-    settle_gas(plant, y)
+    settle_pressures(plant, y)

@@ -88,7 +88,8 @@ def contents(plant: Record, y: Array) -> tuple[float, float, float]:
     oil_2, energy_2 = _chamber(plant, y[P_2], plant.volume_2_m3 - stroke)
     hose_pa = min(y[P_S], plant.precharge_supply_pa)  # gas takes over from the hoses at precharge
     n, all_s, all_t = plant.accumulator_n, plant.accumulator_supply_m3, plant.accumulator_return_m3
-    oil = oil_1 + oil_2 + plant.hose_m3_pa * hose_pa + (all_s - y[G_S]) + (all_t - y[G_T])
+    full_hoses = plant.hose_m3_pa * plant.precharge_supply_pa
+    oil = oil_1 + oil_2 + full_hoses + (all_s - y[G_S]) + (all_t - y[G_T])
 
     energy = energy_1 + energy_2 + 0.5 * plant.hose_m3_pa * hose_pa * hose_pa
     if y[P_S] > plant.precharge_supply_pa:

@@ -21,7 +21,7 @@ Y_V = 19  # LVT's chain, output (m/s)
 G_S, G_T = (
     20,
     21,
-)  # gas volumes of the accumulators (m³): a state, because that saves a power a stage
+)  # gas of the accumulators (m³), supply and return; what the hoses lack counts as gas
 STATES = 22
 
 SUBSTEPS = 3  # steps of the integrator in a tick, at least

@@ -9,6 +9,7 @@ import pytest
 from rtcore.channels import CHANNELS
 from rtcore.io.simulated import SimulatedIo
 from rtcore.memory.segment import private_block
+from rtcore.rig.integrate import settle_gas
 from rtcore.rig.parameters import rig_from
 from rtcore.rig.plant import (
     P_1,
@@ -39,6 +40,7 @@ def pushed(inputs: dict[int, float], ticks: int) -> tuple[Any, npt.NDArray[np.fl
     )[0]
     world["y"][[P_1, P_2]] = 10e6
     world["y"][P_S], world["y"][P_T] = rig.supply.high_pa, rig.supply.tank_pa
+    settle_gas(world["plant"], world["y"])
     world["u"][:] = 0.0
     world["u"][U_PUMP] = rig.supply.high_pa
     force = np.empty(ticks)
