@@ -9,6 +9,7 @@ from rtcore.rig.constants import bypass_flow_gain, valve_flow_gain
 from rtcore.rig.parameters import RigParameters
 
 Floats = npt.NDArray[np.float64]
+ROUNDING = 1e-9
 
 
 def load_pressure(rig: RigParameters, command: Floats, pressure_pa: float | None = None) -> Floats:
@@ -49,5 +50,5 @@ def static_command(rig: RigParameters, force_n: float, pressure_pa: float | None
     if not share < 1.0:
         return math.nan
     ratio = bypass_flow_gain(rig) / valve_flow_gain(rig)
-    command = math.copysign(ratio * math.sqrt(share / (1.0 - share)), force_n)
-    return command if abs(command) <= 1.0 else math.nan
+    command = ratio * math.sqrt(share / (1.0 - share))
+    return math.copysign(min(command, 1.0), force_n) if command <= 1.0 + ROUNDING else math.nan
