@@ -83,7 +83,7 @@ def test_events_of_a_run_are_kept_with_their_time_in_it(ready: ConsoleProcess) -
     run = ready.ended_run(run_id)
     events = ready.http.get(f"/runs/{run_id}/events").json()["events"]
     kinds = [event["kind"] for event in events if event["kind"] != "deadlines_missed"]
-    assert kinds[:2] == ["mode", "command"]
+    assert kinds[:3] == ["mode", "block", "command"]
     assert "program_ended" in kinds
     assert events[-1]["code"] == "ready"
     assert [event["time_s"] for event in events] == sorted(event["time_s"] for event in events)
