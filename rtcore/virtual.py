@@ -124,10 +124,14 @@ class Virtual:
             reply = self.command(opcode)
             if reply != Reply.ACCEPTED:
                 raise RuntimeError(f"{opcode.name.lower()} was refused: {reply.name.lower()}")
+        was_ready = False
         for _ in range(round(within_s / 0.1)):
             self.advance(round(0.1 / self.period_s))
-            if self.mode == Mode.READY:
+            if (
+                was_ready and self.mode == Mode.READY
+            ):  # and stays so: no detector has anything against it
                 return
+            was_ready = self.mode == Mode.READY
         raise RuntimeError(f"not ready within {within_s:g} s but {self.mode.name.lower()}")
 
     def run(self, argument: int = 1, at_most_s: float = 3600.0) -> npt.NDArray[Any]:

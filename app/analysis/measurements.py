@@ -22,12 +22,14 @@ class Measurement(NamedTuple):
     measure: Callable[[Evidence], float | None]
 
 
-def _rms(values: npt.NDArray[np.floating]) -> float:
+def _rms(values: npt.NDArray[np.floating]) -> float | None:
+    if len(values) == 0:
+        return None
     return float(np.sqrt(np.mean(np.asarray(values, np.float64) ** 2)))
 
 
-def _peak(values: npt.NDArray[np.floating]) -> float:
-    return float(np.max(np.abs(values)))
+def _peak(values: npt.NDArray[np.floating]) -> float | None:
+    return float(np.max(np.abs(values))) if len(values) else None
 
 
 def _goodness(evidence: Evidence) -> float | None:

@@ -128,3 +128,11 @@ def test_a_run_is_as_bad_as_its_worst_criterion() -> None:
     assert overall([passed, unset]) is unset
     assert overall([passed, passed]) is passed
     assert overall([]) is unset
+
+
+def test_a_run_that_ends_before_its_first_cycle_has_a_peak_but_no_error() -> None:
+    run = _run(100, force_n=np.full(100, -70.0), force_error_n=np.full(100, 900.0))
+    values = _measure(run, Windows(1000, cycles=((200, 500),)))
+    assert values["peak_force_n"] == 70
+    assert values["force_error_rms_n"] is None
+    assert values["force_error_peak_n"] is None
