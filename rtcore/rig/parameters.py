@@ -11,7 +11,7 @@ from typing import Annotated, Any, Self
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from rtcore.rig.rates import FASTEST_1_S, fastest_rate, smallest_chambers
+from rtcore.rig.rates import FASTEST_1_S, fastest_part, smallest_chambers
 
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
@@ -164,11 +164,11 @@ class RigParameters(_Part):
     @model_validator(mode="after")
     def _can_be_followed(self) -> Self:
         """Values that are sound one by one may still not go together."""
-        rate = fastest_rate(self)
+        part, rate = fastest_part(self)
         if not rate <= FASTEST_1_S:
             raise ValueError(
-                f"the stiffest part of this rig moves at {rate:,.0f} 1/s, and the simulation follows"
-                f" {FASTEST_1_S:,.0f} 1/s: give its springs or dampers less, or its masses more"
+                f"the {part} of this rig moves at {rate:,.0f} 1/s, and the simulation follows"
+                f" {FASTEST_1_S:,.0f} 1/s: less stiffness or damping, or more mass"
             )
         for chamber, left in enumerate(smallest_chambers(self), start=1):
             if not left > 0.0:

@@ -1,5 +1,6 @@
 """How fast the fastest part of a rig moves: the integrator follows only so much."""
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
 # Runge-Kutta's limit is 2.78 a step. Restrictions may be faster near no drop: they tremble there, where a
 # structure would fly apart.
 FASTEST_1_S = 2.6 * SUBSTEPS / 250e-6
+STEPS_AT_STOP = 6  # that the valve takes for one of the rest
 
 
 def smallest_chambers(rig: "RigParameters") -> tuple[float, float]:
@@ -20,8 +22,28 @@ def smallest_chambers(rig: "RigParameters") -> tuple[float, float]:
     return rig.load_actuator.volume_1_m3 - taken, rig.load_actuator.volume_2_m3 - taken
 
 
-def fastest_rate(rig: "RigParameters") -> float:
-    """Largest magnitude of an eigenvalue (1/s) of bodies, springs, dampers and the oil between them."""
+def fastest_part(rig: "RigParameters") -> tuple[str, float]:
+    """Which part moves fastest, and the largest magnitude of its eigenvalues (1/s)."""
+    valve, sensors = rig.servovalve, rig.sensors
+    stop_rad_s = valve.omega_f_rad_s * math.sqrt(1.0 + valve.flapper_stop_k)
+    stop_damping = valve.zeta_f * (1.0 + valve.flapper_stop_c) * valve.omega_f_rad_s / stop_rad_s
+    rates = {
+        "structure": structure_rate(rig),
+        "servovalve's flapper": second_order_rate(valve.omega_f_rad_s, valve.zeta_f),
+        "flapper's stop": second_order_rate(stop_rad_s, stop_damping) / STEPS_AT_STOP,
+        "load cell's chain": second_order_rate(sensors.omega_lc_rad_s, sensors.zeta_lc),
+        "LVT's chain": sensors.omega_lvt_rad_s,
+    }
+    return max(rates.items(), key=lambda item: item[1])
+
+
+def second_order_rate(omega_rad_s: float, zeta: float) -> float:
+    """Of s² + 2ζωs + ω²."""
+    return omega_rad_s * (zeta + math.sqrt(zeta * zeta - 1.0) if zeta > 1.0 else 1.0)
+
+
+def structure_rate(rig: "RigParameters") -> float:
+    """Of bodies, springs and dampers, and the oil between body and rod."""
     s, unit, actuator, fluid = rig.structure, rig.unit, rig.load_actuator, rig.fluid
     bulk_pa = fluid.bulk_modulus_pa + fluid.bulk_modulus_slope * rig.supply.high_pa
     softness = 1.0 / actuator.volume_1_m3 + 1.0 / actuator.volume_2_m3

@@ -9,7 +9,20 @@ import numpy.typing as npt
 from rtcore.rig.constants import plant_constants
 from rtcore.rig.integrate import WORK, advance, settle_gas
 from rtcore.rig.parameters import rig_from
-from rtcore.rig.plant import INPUTS, P_1, P_2, P_S, P_T, STATES, U_PUMP, V_1, V_R, X_1, X_R
+from rtcore.rig.plant import (
+    INPUTS,
+    P_1,
+    P_2,
+    P_S,
+    P_T,
+    STATES,
+    SUBSTEPS,
+    U_PUMP,
+    V_1,
+    V_R,
+    X_1,
+    X_R,
+)
 
 Floats = npt.NDArray[np.float64]
 PERIOD_S = 250e-6
@@ -37,7 +50,7 @@ def pressurised(record: Any, load_pa: float = 0.0) -> Floats:
     return y
 
 
-def states(record: Any, y: Floats, held: Floats, substeps: int = 4) -> Floats:
+def states(record: Any, y: Floats, held: Floats, substeps: int = SUBSTEPS) -> Floats:
     """(n, STATES) after each tick of held inputs (n, INPUTS), by the loop's integrator."""
     work, y = np.zeros(1, WORK)[0], y.copy()
     found = np.empty((len(held), STATES))

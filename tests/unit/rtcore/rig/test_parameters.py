@@ -67,9 +67,10 @@ def test_a_value_at_its_bound_is_taken(bound: Bound) -> None:
 @pytest.mark.parametrize(
     ("part", "name", "value", "why"),
     [
-        ("structure", "c_lc", 1e6, "moves at 267,202 1/s"),
-        ("structure", "k_2", 1e10, "give its springs or dampers less"),
-        ("unit", "c_tra", 1e6, "its masses more"),
+        ("structure", "c_lc", 1e6, "structure of this rig moves at 267,202 1/s"),
+        ("structure", "k_2", 1e10, "less stiffness or damping"),
+        ("unit", "c_tra", 1e6, "or more mass"),
+        ("sensors", "zeta_lc", 2.0, "load cell's chain of this rig moves at"),
         ("unit", "stroke_m", 0.06, "volume_1_m3 is less than unit.stroke_m"),
         ("load_actuator", "volume_2_m3", 7e-5, "volume_2_m3 is less than unit.stroke_m"),
     ],
