@@ -22,7 +22,6 @@ from bench.report import Figure
 from rtcore.codes import Opcode
 from rtcore.modes import Mode
 from rtcore.rig.constants import plant_constants
-from rtcore.rig.plant import P_S
 
 LIMIT = 1e-6  # of throughput
 PPM = 1e6
@@ -70,7 +69,7 @@ def saturating() -> Stretch:
 
 
 @cache
-def whole() -> Stretch:
+def pressurised() -> Stretch:
     """From no pressure to full, and bled again."""
     virtual = virtual_rig(quiet_rig())
     virtual.command(Opcode.RESET)
@@ -84,24 +83,7 @@ def whole() -> Stretch:
     down = record(virtual, round(1.0 / PERIOD_S))
     inputs = np.concatenate((up.inputs, held[None], down.inputs))
     states = np.concatenate((up.states, between[None], down.states))
-    return Stretch("pressurised", up.before, inputs, states)
-
-
-def pressurising_stretches() -> Iterator[Stretch]:
-    """The parts between the ticks in which the accumulator's gas takes over from the hoses, or gives up.
-
-    In such a tick the elasticity of the supply jumps, which a Runge-Kutta step does not follow to 1e-6.
-    """
-    run = whole()
-    charged = run.states[:, P_S] > plant_constants(quiet_rig())["precharge_supply_pa"]
-    ends = [*(np.flatnonzero(np.diff(charged)) + 1), len(charged)]
-    before, first = run.before, 0
-    parts = "hoses filling", "gas compressed and expanding", "hoses emptying"
-    for what, end in zip(parts, ends, strict=True):
-        part = slice(first, end)
-        yield Stretch(what, before, run.inputs[part], run.states[part])
-        first = end + 1
-        before = run.states[end] if end < len(charged) else before
+    return Stretch("pressurised and bled", up.before, inputs, states)
 
 
 def _stretch(what: str, run: Recording) -> Stretch:
@@ -122,9 +104,8 @@ def of_tick(stretch: Stretch) -> Balance:
 
 def figures() -> Iterator[Figure]:
     """Balances, then planted bugs."""
-    for stretch in (moving(), saturating(), *pressurising_stretches()):
+    for stretch in (moving(), saturating(), pressurised()):
         yield from _of(stretch.what, of_equations(stretch))
-    yield from _of("pressurised and bled, gas taking over included", of_equations(whole()))
     for stretch in (moving(), saturating()):
         yield from _of(f"tick's own states, {stretch.what}", of_tick(stretch))
     for fault, books in SEEN_IN.items():
