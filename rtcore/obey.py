@@ -158,7 +158,10 @@ def _carry_out(core: Record, block: Record, block_address: int, opcode: int, arg
         if core.has_program == 0 or argument < 1:
             return Reply.NO_PROGRAM
         program = block.programs[block.active_program]
-        return _done(start_run(core, program, block_address, _EVENT_OF[opcode], argument))
+        started = start_run(core, program, block_address, _EVENT_OF[opcode], argument)
+        if started:
+            block.program_ticks = 0
+        return _done(started)
     return _done(apply_event(core, block_address, _EVENT_OF[opcode]))
 
 

@@ -50,7 +50,7 @@ def tick(
     take_command(core, block, block_address, now_ns)
 
     # setpoint
-    set_points(core, block.programs[block.active_program], block_address)
+    set_points(core, block, block_address)
 
     # law, limit
     if is_closed_loop(core.mode):
@@ -105,7 +105,7 @@ def count_missed(core: Record, block_address: int, missed: int, latency_ns: int)
 
 
 @kernel
-def set_points(core: Record, program: Record, block_address: int) -> None:
+def set_points(core: Record, block: Record, block_address: int) -> None:
     """Force and motion commanded in this tick."""
     settings = core.settings
     if not is_run(core.mode):
@@ -113,11 +113,14 @@ def set_points(core: Record, program: Record, block_address: int) -> None:
             step = RETURN_M_S * settings.period_s
             rest(core.motion, core.motion.value - min(max(core.motion.value, -step), step))
         return
+    program = block.programs[block.active_program]
     before = core.force.block
     holding, stopping = core.mode == Mode.HOLDING, core.mode == Mode.STOPPING
     hold, stop, period_s = settings.hold_fade_ticks, settings.stop_fade_ticks, settings.period_s
     generate(core.force, program.force, holding, stopping, hold, stop, period_s)
     generate(core.motion, program.motion, holding, stopping, hold, stop, period_s)
+    if core.mode == Mode.RUNNING and core.force.hold_ticks == 0:
+        block.program_ticks += 1
     if core.force.block != before:
         publish_event(block_address, core.tick, EventKind.BLOCK, core.force.block, core.run, 0.0)
 

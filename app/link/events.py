@@ -98,7 +98,8 @@ def _words(record: Any, detectors: npt.NDArray[Any], period_ns: int) -> tuple[st
         case EventKind.PROGRAM_ENDED:
             return "program_ended", "program_ended", "The test has run to its end"
         case EventKind.DEADLINES_MISSED:
-            text = f"{code} deadlines missed, {value * 1e-6:.1f} ms late"
+            deadlines = "1 deadline" if code == 1 else f"{code} deadlines"
+            text = f"{deadlines} missed, up to {value * 1e-6:.1f} ms late"
             return "deadlines_missed", "deadlines_missed", text
 
 

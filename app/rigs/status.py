@@ -66,7 +66,7 @@ class StatusReader:
             limits=self._limits(life.detectors()),
             trips=trips,
             loop=health,
-            run=self._progress(record, period_s) if health.alive else None,
+            run=self._progress(life, record) if health.alive else None,
             recorder=self._recorder_out(),
             commands=_reasons(record, trips, alive=health.alive),
         )
@@ -112,12 +112,11 @@ class StatusReader:
             supply_pressure_pa=self._supply_pressure_pa,
         )
 
-    def _progress(self, record: Any, period_s: float) -> RunProgress | None:
-        run_id, tick, block = int(record["run"]), int(record["tick"]), int(record["block"])
+    def _progress(self, life: Life, record: Any) -> RunProgress | None:
+        run_id, block = int(record["run"]), int(record["block"])
         plan = self._plans[run_id]
         if run_id == 0 or plan is None:
             return None
-        first_tick = tick if plan.first_tick is None else plan.first_tick
         return RunProgress(
             id=run_id,
             test_name=plan.test_name,
@@ -125,7 +124,7 @@ class StatusReader:
             blocks=len(plan.blocks),
             cycle=int(record["cycle"]),
             cycles=plan.cycles(block),
-            elapsed_s=(tick - first_tick) * period_s,
+            elapsed_s=int(life.block.fields["program_ticks"]) * life.period_ns * 1e-9,
             duration_s=plan.duration_s,
         )
 

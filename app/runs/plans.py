@@ -13,7 +13,6 @@ class Plan:
     """What a run comes to, as `app.definitions.outline` has it."""
 
     test_name: str
-    first_tick: int | None
     blocks: tuple[dict[str, Any], ...]
     duration_s: float
 
@@ -32,13 +31,13 @@ class Plans:
     def __getitem__(self, run_id: int) -> Plan | None:
         return self._plans.get(run_id)
 
-    def remember(self, run: Run, first_tick: int | None) -> None:
+    def remember(self, run: Run) -> None:
         """A run has begun: forget those before it."""
         blocks, duration_s = tuple(run.plan["blocks"]), float(run.plan["duration_s"])
-        self._plans = {run.id: Plan(run.test_name, first_tick, blocks, duration_s)}
+        self._plans = {run.id: Plan(run.test_name, blocks, duration_s)}
 
     def recall(self, database: Database) -> None:
         """After a restart of the app: the run that may still be under way."""
         with database.reading() as session:
             for run in repository.without_outcome(session):
-                self.remember(run, run.first_tick)
+                self.remember(run)

@@ -81,7 +81,7 @@ class Starter:
         answer = self._link.ask(Opcode.START, run.id)
         if isinstance(answer, Refusal):
             return self._withdraw(run, answer)
-        self._plans.remember(run, answer.tick)
+        self._plans.remember(run)
         return run
 
     def _enter(self, life: Life, test_id: str, definition: Definition) -> Run:

@@ -62,6 +62,10 @@ BLOCK = np.dtype(
         ("telemetry_published", "i8"),
         ("snapshot_sequence", "i8"),  # odd while the snapshot is being written
         ("snapshot", TELEMETRY),
+        (
+            "program_ticks",
+            "i8",
+        ),  # of this run in which its program went on: not held, not being stopped
         ("first_out", "i8"),  # detector that tripped first since the last reset, -1 for none
         ("active_gains", "i8"),
         ("active_interlocks", "i8"),

@@ -115,8 +115,10 @@ def test_hold_and_resume(running: Virtual) -> None:
     assert set(records["mode"]) == {Mode.HOLDING}
     assert np.abs(records["force_command_n"][1500:]).max() < 1e-6
     cycle = records["cycle"][-1]
+    assert running.block.fields["program_ticks"] == 2000 + 1
     assert running.command(Opcode.RESUME) == Reply.ACCEPTED
     records = running.advance(4000)
+    assert running.block.fields["program_ticks"] == pytest.approx(2001 + 3000, abs=2)
     assert records["cycle"][0] == cycle
     assert records["cycle"][-1] == pytest.approx(cycle + 0.75 * 50, abs=1.01)
     assert records["force_command_n"].max() == pytest.approx(2000.0, rel=0.01)

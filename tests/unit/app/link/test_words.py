@@ -82,7 +82,7 @@ def test_every_event_has_words() -> None:
     assert all(event.text and event.code for event in events)
     assert {event.time_s for event in events} == {0.002}
     words = {event.text for event in events}
-    assert {"Running", "Adopt program", "Block 3", "3 deadlines missed, 0.8 ms late"} <= words
+    assert {"Running", "Adopt program", "Block 3", "3 deadlines missed, up to 0.8 ms late"} <= words
     refused = [event.text for event in events if event.kind == "refusal"]
     assert len(refused) == len(Reply) - 1
     assert "Start refused: cause present" in refused

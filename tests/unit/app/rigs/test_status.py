@@ -95,9 +95,10 @@ def test_limits_are_those_of_the_detectors_in_force(loop: WrittenBlock) -> None:
 def test_the_run_under_way_with_what_is_expected_of_it(loop: WrittenBlock) -> None:
     plans = Plans()
     plan = {"blocks": [{"cycles": 0}, {"cycles": 200}], "duration_s": 4.8}
-    plans.remember(Run(id=7, test_name="Harmonic", plan=plan), first_tick=100)
+    plans.remember(Run(id=7, test_name="Harmonic", plan=plan))
     loop.begin(7)
     loop.ticks(41, run=7, block=1, cycle=17)
+    loop.block.fields["program_ticks"] = 40  # one of them held
     run = read(loop, plans=plans).run
     assert run is not None
     assert run.model_dump() == {
