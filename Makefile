@@ -15,6 +15,9 @@ CONSOLE := app/static/index.html
 WEB_SOURCES := $(wildcard web/*.ts web/*.js web/*.json web/index.html) \
 	$(shell find web/src web/public 2>/dev/null)
 
+# Kernels that index what the other side of the memory wrote, once more with every index checked.
+BOUNDS_CHECKED := $(addprefix tests/unit/rtcore/test_,tick.py generator.py memory.py interlocks.py)
+
 .PHONY: run test check lint unit bench gen check-gen lock clean setup
 .DELETE_ON_ERROR:
 
@@ -23,6 +26,7 @@ run: setup
 
 test: lint
 	$(NPM) run --silent test
+	NUMBA_BOUNDSCHECK=1 $(PY) -m pytest -q $(BOUNDS_CHECKED)
 	FORCERIG_CHROMIUM="$$($(PY) tools/ensure_chromium.py)" $(PY) -m pytest $(ARGS)
 
 check: lint unit

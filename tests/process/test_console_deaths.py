@@ -72,6 +72,8 @@ def test_the_console_is_killed_in_mid_run(console: ConsoleProcess) -> None:
 
     events = console.http.get(f"/runs/{run_id}/events").json()["events"]
     (trip,) = [event for event in events if event["kind"] == "trip"]
+    print(f"\nconsole killed: stop after {trip['value']:.5f} s of silence, {run['ticks']} ticks, "
+          f"{run['missing_ticks']} missing")  # fmt: skip
     assert trip["value"] == pytest.approx(SILENCE_S, abs=2 * PERIOD_S)
     assert trip["tick"] == run["first_tick"] + stopped
     assert not (console.data / "runs" / str(run_id) / "part-0001.arrows").exists()
@@ -93,6 +95,7 @@ def test_the_loop_is_killed_in_mid_run(console: ConsoleProcess) -> None:
 
     wait_for(lost_is_told, "the loss to be told")
     lost = seen.pop()
+    print(f"\nloop killed: told when its data were {lost['loop']['data_age_s']:.2f} s old")
     assert lost["loop"]["alive"] is False
     assert all(status["loop"]["data_age_s"] < 1.0 for status in seen)  # told within a second
     assert set(lost["commands"].values()) == {"The loop process does not run"}

@@ -88,6 +88,7 @@ def test_no_torn_record_is_accepted_in_ten_million_reads(block: Block) -> None:
     tally = np.zeros((2, 2), np.int64)
     read_many(block.address, address_of(record), address_of(tally), READS)
     outcome = Outcome(*tally.ravel().tolist())
+    print(f"\n{READS:,} reads: {outcome}")  # a figure of the project: shown with pytest -s
     assert sum(outcome) == READS
     assert outcome.accepted_torn == 0
     assert outcome.accepted_whole > 0
