@@ -71,6 +71,17 @@ def test_the_notch_follows_the_load() -> None:
     assert np.max(np.abs(compensated(velocity, Branch.WITH_NOTCH, 50.0)[-4000:])) > 1e-2
 
 
+def test_the_notch_moves_when_the_load_does() -> None:
+    """A run of three seconds at 35 Hz, then four at 50 Hz."""
+    record, branch = law(GAINS), int(Branch.WITH_NOTCH)
+    parts, valve = record["compensation"], []
+    for load_hz, seconds in ((35.0, 3.0), (50.0, 4.0)):
+        for v in sine(load_hz, seconds):
+            valve.append(compensation_step(GAINS, parts, v, load_hz, branch, T))
+    assert np.max(np.abs(valve[8000:12_000])) < 1e-6
+    assert np.max(np.abs(valve[-4000:])) < 1e-6
+
+
 def test_velocity_and_its_derivative_are_a_quarter_of_a_turn_apart() -> None:
     velocity = sine(4.0, 4.0)
     found = terms(velocity, [Branch.WITH_NOTCH] * len(velocity))

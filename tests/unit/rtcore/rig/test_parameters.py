@@ -64,6 +64,17 @@ def test_a_value_at_its_bound_is_taken(bound: Bound) -> None:
     assert getattr(part.model_validate(values), bound.name) == bound.bound
 
 
+def test_every_number_is_bounded_on_both_sides() -> None:
+    sides: dict[tuple[str, str], set[bool]] = {}
+    for b in BOUNDS:
+        sides.setdefault((b.part, b.name), set()).add(b.beyond > b.bound)
+    shipped = load_rig().model_dump()
+    parts = {part: values for part, values in shipped.items() if isinstance(values, dict)}
+    numbers = {(part, name) for part, values in parts.items() for name in values}
+    assert len(numbers) > 70
+    assert {key for key in numbers if sides.get(key) != {True, False}} == set()
+
+
 @pytest.mark.parametrize(
     ("part", "name", "value", "why"),
     [

@@ -68,6 +68,16 @@ def test_a_stop_is_a_spring_with_a_damper_that_comes_in_with_depth() -> None:
             assert flapper_stop(PLANT, -1.0 - depth, -rate) == pytest.approx(-wanted)
 
 
+def test_the_torque_motor_bends_the_flapper_by_at_most_one_and_a_half_travels() -> None:
+    """Whatever the spool is away from its command: K_sp/v_s,max metres to one, limited."""
+    omega = 2827.4333882308138
+    pushed, still = spool_motion(PLANT, 0.0, 0.0, -STROKE_M, 1.0)
+    assert pushed == pytest.approx(1.5 * omega**2)
+    assert still == 0.0
+    small, _ = spool_motion(PLANT, 0.0, 0.0, 0.1 * STROKE_M, 0.0)
+    assert small == pytest.approx(-(omega**2) * 691.1503837897545 / 0.336 * 0.1 * STROKE_M)
+
+
 def moved(commands: np.ndarray) -> np.ndarray:
     """(n, STATES) under (n,) valve commands."""
     held = inputs(len(commands))

@@ -53,6 +53,7 @@ def test_pressure_follows_the_pump_up_and_never_falls() -> None:
 
 def test_low_stays_low_until_high_is_asked_for() -> None:
     bench = Bench()
+    assert 2.0e6 < bench.run(SUPPLY_LOW, 0.25)[-1, P_S] < 2.9e6  # at the pump's own rate
     assert bench.run(SUPPLY_LOW, 1.5)[-1, P_S] == pytest.approx(7e6, rel=1e-3)
     assert bench.run(SUPPLY_HIGH, 2.0)[-1, P_S] == pytest.approx(21e6, rel=1e-3)
     assert bench.run(SUPPLY_LOW, 0.1)[-1, P_S] > 19e6  # nothing bleeds, so it stays for a while
