@@ -13,12 +13,13 @@ from app.link.life import Life
 from app.link.process import LoopCommand, end_loop
 from app.link.refusals import as_refusal
 from app.link.supervisor import Supervisor
-from rtcore.codes import Opcode
+from rtcore.codes import Opcode, Reply
 from rtcore.memory.segment import BlockError, lock_single_loop
 from rtcore.modes import is_run
 
 _log = logging.getLogger(__name__)
 _LOAD_OFF_S = 15.0
+_CONFIGURED_S = 1.0
 
 
 class Link:
@@ -57,8 +58,15 @@ class Link:
         self._heard(life)
 
     def ask(self, opcode: Opcode, argument: int = 0) -> Answer | Refusal:
-        """Give a command. The answer is the loop's acceptance; all else is a refusal."""
+        """Give a command. The answer is the loop's acceptance; all else is a refusal.
+
+        A loop that has only just begun may still be waiting for its gains and interlocks: so does this.
+        """
         answer = self.commander.ask(opcode, argument)
+        deadline = time.monotonic() + _CONFIGURED_S
+        while _is_not_configured(answer) and time.monotonic() < deadline:
+            time.sleep(0.02)
+            answer = self.commander.ask(opcode, argument)
         return as_refusal(opcode, answer) or answer
 
     def adopt(self, opcode: Opcode, record: Any) -> Refusal | None:
@@ -98,6 +106,10 @@ class Link:
                     path.unlink(missing_ok=True)
         except BlockError as error:
             _log.error("the loop process did not end: %s", error)
+
+
+def _is_not_configured(answer: Answer | Refusal) -> bool:
+    return isinstance(answer, Answer) and answer.reply is Reply.NOT_CONFIGURED
 
 
 def _is_loaded(life: Life) -> bool:
