@@ -61,6 +61,10 @@ describe("routeOf", () => {
     expect(routeOf("#/runs")).toEqual({ page: "runs" });
     expect(routeOf("#/runs/12")).toEqual({ page: "run", id: 12 });
     expect(routeOf("#/runs/none")).toEqual({ page: "runs" });
+    expect(routeOf("#/tests")).toEqual({ page: "tests" });
+    expect(routeOf("#/tests/a%20b")).toEqual({ page: "test", id: "a b" });
+    expect(routeOf("#/tests/%")).toEqual({ page: "test", id: "%" });
+    expect(routeOf("#/new-test")).toEqual({ page: "test", id: null });
     for (const hash of ["", "#", "#/", "#/operate", "#/nonsense"])
       expect(routeOf(hash)).toEqual({ page: "operate" });
   });

@@ -7,7 +7,7 @@ export type KeyAction =
   | { readonly kind: "stop" }
   | { readonly kind: "leave-field" }
   | { readonly kind: "command"; readonly command: Exclude<Command, "stop"> }
-  | { readonly kind: "help" | "acknowledge" | "pause" | "shorter" | "longer" | "operate" | "runs" | "theme" };
+  | { readonly kind: "help" | "acknowledge" | "pause" | "shorter" | "longer" | "operate" | "tests" | "runs" | "theme" };
 
 export interface KeyInfo {
   readonly key: string;
@@ -22,9 +22,22 @@ export const VIEW_KEYS: readonly KeyInfo[] = [
   { key: "+", does: "Shorter chart window", action: { kind: "shorter" } },
   { key: "-", does: "Longer chart window", action: { kind: "longer" } },
   { key: "1", does: "Operate", action: { kind: "operate" } },
-  { key: "2", does: "Runs", action: { kind: "runs" } },
+  { key: "2", does: "Tests", action: { kind: "tests" } },
+  { key: "3", does: "Runs", action: { kind: "runs" } },
   { key: "t", does: "Theme: auto, light, dark", action: { kind: "theme" } },
   { key: "?", does: "Show or hide these keys", action: { kind: "help" } },
+];
+
+/** Keys of the Tests page, for the help. The page itself listens: they mean nothing elsewhere. */
+export const TEST_KEYS: readonly { readonly key: string; readonly does: string }[] = [
+  { key: "/", does: "Search the tests" },
+  { key: "n", does: "New test" },
+  { key: "↑ ↓", does: "Next or previous test or block; Enter opens it" },
+  { key: "Alt ↑ ↓", does: "Move the block" },
+  { key: "Ctrl D", does: "Duplicate the block" },
+  { key: "Del", does: "Remove the block" },
+  { key: "Ctrl Z", does: "Undo; with Shift: redo" },
+  { key: "Ctrl S", does: "Save the test" },
 ];
 
 const SINGLE: ReadonlyMap<string, KeyAction> = new Map([

@@ -16,6 +16,8 @@ export class Problem extends Error {
     readonly detail: string,
     readonly code: string,
     readonly status: number | null,
+    /** The whole problem document, for whoever can show more of it than its sentence. */
+    readonly document: Readonly<Record<string, unknown>> = {},
   ) {
     super(detail);
   }
@@ -24,7 +26,7 @@ export class Problem extends Error {
 const NO_ANSWER = "The server does not answer.";
 const WAIT_MS = 15_000;
 
-async function request<T>(path: string, options: RequestInit = {}): Promise<T> {
+export async function request<T>(path: string, options: RequestInit = {}): Promise<T> {
   let response: Response;
   try {
     response = await fetch(`/api/v1/${path}`, {
@@ -45,16 +47,17 @@ async function problem(response: Response): Promise<Problem> {
     detail?: unknown;
     title?: unknown;
     code?: unknown;
-  };
+  } & Record<string, unknown>;
   const sentence = [body.detail, body.title].find((text) => typeof text === "string" && text !== "");
   return new Problem(
     (sentence as string | undefined) ?? `The server refused (${response.status} ${response.statusText}).`,
     typeof body.code === "string" ? body.code : `http_${response.status}`,
     response.status,
+    body,
   );
 }
 
-const post = (body: unknown): RequestInit => ({
+export const post = (body: unknown): RequestInit => ({
   method: "POST",
   headers: { "Content-Type": "application/json", Accept: "application/json" },
   body: JSON.stringify(body),
