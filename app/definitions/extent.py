@@ -111,6 +111,12 @@ def ticks_of(piece: Piece, state: State) -> int:
     return math.ceil(abs(piece.target - state.value) / per_tick - 1e-9)
 
 
+def cycles_of(piece: Piece, state: State) -> int:
+    """Whole cycles that a harmonic turns from a setpoint."""
+    half_a_tick = 0.5 * piece.frequency_to_hz * RIG.period_s  # a whole cycle may end between ticks
+    return math.floor(_turned(piece, state) + half_a_tick + 1e-9)
+
+
 def _turned(piece: Piece, state: State) -> float:
     """Cycles that a harmonic turns while its frequency moves linearly."""
     began_hz = state.frequency_hz if piece.continues else piece.frequency_from_hz
@@ -120,8 +126,7 @@ def _turned(piece: Piece, state: State) -> float:
 
 def _extent(piece: Piece, before: State, end: State) -> Extent:
     ticks = ticks_of(piece, before)
-    half_a_tick = 0.5 * piece.frequency_to_hz * RIG.period_s  # a whole cycle may end between ticks
-    cycles = math.floor(_turned(piece, before) + half_a_tick + 1e-9) if piece.counts else 0
+    cycles = cycles_of(piece, before) if piece.counts else 0
     mean, amplitude = _began(piece, before)
     low = min(before.value, end.value, mean - amplitude, end.mean - end.amplitude)
     high = max(before.value, end.value, mean + amplitude, end.mean + end.amplitude)

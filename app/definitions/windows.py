@@ -3,11 +3,12 @@
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from app.analysis.evidence import StepWindow, Windows
+from app.analysis.evidence import Kind, Sine, StepWindow, Stretch, Windows
 from app.definitions.definition import Definition
-from app.definitions.extent import AT_REST, State, after, ticks_of
+from app.definitions.extent import AT_REST, State, after, cycles_of, ticks_of
 from app.definitions.nodes import force_nodes
 from app.definitions.pieces import Node, Piece
+from rtcore.program.segments import Segment
 
 
 class _Played(NamedTuple):
@@ -36,6 +37,46 @@ def windows(definition: Definition, at_most_ticks: int) -> Windows:
         if played.piece.counts:
             cycles.append((played.first, played.last))
     return Windows(end, tuple(cycles), tuple(steps))
+
+
+def stretches(definition: Definition) -> Iterator[Stretch]:
+    """The whole force program in playing order, lazily; a step and what follows it are one."""
+    blocks = force_nodes(definition.blocks, definition.controller.compensation)
+    step: _Played | None = None
+    for played in _play(node for nodes in blocks for node in nodes):
+        if played.piece.is_step:
+            step = played
+        elif step is not None:
+            yield _stretch(step, step.first, played.last, Kind.STEP, played.after)
+            step = None
+        else:
+            yield _stretch(played, played.first, played.last, _kind(played), played.after)
+
+
+def _kind(played: _Played) -> Kind:
+    piece, before = played.piece, played.before
+    if piece.counts:
+        continued = before.frequency_hz or piece.frequency_to_hz
+        began_hz = continued if piece.continues else piece.frequency_from_hz
+        return Kind.CYCLES if began_hz == piece.frequency_to_hz else Kind.SWEEP
+    leads = piece.kind in (Segment.SMOOTH, Segment.HARMONIC)
+    return Kind.LEAD if leads else Kind.COURSE
+
+
+def _stretch(played: _Played, first: int, last: int, kind: Kind, end: State) -> Stretch:
+    piece, before = played.piece, played.before
+    steady = Sine(piece.frequency_to_hz, piece.amplitude_to, piece.mean_to)
+    return Stretch(
+        first,
+        last,
+        kind,
+        piece.origin,
+        before.value,
+        end.value,
+        steady if kind is Kind.CYCLES else None,
+        cycles_of(piece, before) if piece.counts else 0,
+        bool(piece.continues),
+    )
 
 
 def _play(nodes: Iterable[Node]) -> Iterator[_Played]:
