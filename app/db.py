@@ -12,7 +12,18 @@ from typing import Any
 
 from alembic import command
 from alembic.config import Config
-from sqlalchemy import DateTime, Dialect, Engine, TypeDecorator, create_engine, event
+from sqlalchemy import (
+    BigInteger,
+    Connection,
+    DateTime,
+    Dialect,
+    Engine,
+    Integer,
+    TypeDecorator,
+    create_engine,
+    event,
+)
+from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import DeclarativeBase, Session
 
 from app.settings import Settings
@@ -24,6 +35,10 @@ _PRAGMAS = (
     "PRAGMA foreign_keys=ON",
     f"PRAGMA busy_timeout={BUSY_TIMEOUT_MS}",
 )
+
+
+# Ticks outgrow 32 bits in six days. SQLite has integers of one kind, and numbers only INTEGER keys.
+BigInt = BigInteger().with_variant(Integer(), "sqlite")
 
 
 class Base(DeclarativeBase):
@@ -66,13 +81,40 @@ class Database:
             _prepare_sqlite(self.engine)
         self._writer = self.engine.execution_options(writes=True)
 
-    def upgrade(self) -> None:
+    def upgrade(self, revision: str = "head") -> None:
         """Bring the tables to the newest revision; an interrupted one has changed nothing."""
-        config = Config()
-        config.set_main_option("script_location", str(migrations_folder()))
-        with self._writer.begin() as connection:
+        config = _alembic()
+        with self._rebuilding() as connection:
             config.attributes["connection"] = connection
-            command.upgrade(config, "head")
+            command.upgrade(config, revision)
+
+    def downgrade(self, revision: str) -> None:
+        """Bring the tables back to an older revision."""
+        config = _alembic()
+        with self._rebuilding() as connection:
+            config.attributes["connection"] = connection
+            command.downgrade(config, revision)
+
+    @contextmanager
+    def _rebuilding(self) -> Iterator[Connection]:
+        """A transaction in which tables may be made anew.
+
+        SQLite does that by copying, and would take a table's rows with it out of those that refer
+        to it: so it checks the references once, at the end.
+        """
+        with self._writer.connect() as connection:
+            driver: Any = connection.connection.driver_connection
+            sqlite = self.engine.dialect.name == "sqlite"
+            if sqlite:
+                driver.execute("PRAGMA foreign_keys=OFF")
+            try:
+                with connection.begin():
+                    yield connection
+                    if sqlite and connection.exec_driver_sql("PRAGMA foreign_key_check").first():
+                        raise IntegrityError("PRAGMA foreign_key_check", None, ValueError())
+            finally:
+                if sqlite:
+                    driver.execute("PRAGMA foreign_keys=ON")
 
     @contextmanager
     def reading(self) -> Iterator[Session]:
@@ -97,6 +139,12 @@ def upgrade(data_dir: Path) -> None:
     database = Database(Settings(data_dir=data_dir).database_address)
     database.upgrade()
     database.close()
+
+
+def _alembic() -> Config:
+    config = Config()
+    config.set_main_option("script_location", str(migrations_folder()))
+    return config
 
 
 def migrations_folder() -> Path:

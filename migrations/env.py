@@ -2,7 +2,8 @@
 
 from alembic import context
 
-import app.runs.models  # noqa: F401  (so that its tables are known)
+import app.catalogue.models
+import app.runs.models  # noqa: F401
 from app.db import Base
 
 context.configure(

@@ -14,7 +14,16 @@ from app.runs import repository
 from app.runs.models import Run
 
 _FROZEN = (
-    *("test_id", "test_name", "definition", "controller", "interlocks", "rig", "conditions"),
+    *(
+        "test_id",
+        "test_name",
+        "revision",
+        "definition",
+        "controller",
+        "interlocks",
+        "rig",
+        "conditions",
+    ),
     *("software_version", "period_ns"),
 )
 
@@ -68,6 +77,7 @@ def _close(run: Run, recorded: Recorded, ending: Ending) -> None:
     run.outcome = ending.outcome.value
     run.reason = ending.reason
     run.ticks = recorded.ticks
+    run.duration_s = recorded.ticks * run.period_ns * 1e-9
     run.missing_ticks = recorded.missing_ticks
     if recorded.last_tick >= 0:
         run.first_tick, run.last_tick = recorded.first_tick, recorded.last_tick

@@ -1,11 +1,11 @@
 """What is expected of the runs under way: kept in memory, for the status asks ten times a second."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from app.db import Database
 from app.runs import repository
-from app.runs.models import Run
 
 
 @dataclass(frozen=True)
@@ -31,13 +31,13 @@ class Plans:
     def __getitem__(self, run_id: int) -> Plan | None:
         return self._plans.get(run_id)
 
-    def remember(self, run: Run) -> None:
+    def remember(self, run_id: int, test_name: str, plan: Mapping[str, Any]) -> None:
         """A run has begun: forget those before it."""
-        blocks, duration_s = tuple(run.plan["blocks"]), float(run.plan["duration_s"])
-        self._plans = {run.id: Plan(run.test_name, blocks, duration_s)}
+        blocks, duration_s = tuple(plan["blocks"]), float(plan["duration_s"])
+        self._plans = {run_id: Plan(test_name, blocks, duration_s)}
 
     def recall(self, database: Database) -> None:
         """After a restart of the app: the run that may still be under way."""
         with database.reading() as session:
             for run in repository.without_outcome(session):
-                self.remember(run)
+                self.remember(run.id, run.test_name, run.plan)

@@ -1,12 +1,18 @@
 """Queries on the runs. Each takes the session of the one transaction that it is part of."""
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
-from sqlalchemy import insert, select, update
+from sqlalchemy import select, update
+from sqlalchemy.dialects.postgresql import insert as postgresql_insert
 from sqlalchemy.dialects.sqlite import insert as sqlite_insert
 from sqlalchemy.orm import Session
 
-from app.runs.models import Run, RunEvent
+from app.db import Base
+from app.documents.canonical import fingerprint
+from app.runs.models import Document, Run, RunEvent
+
+_INSERT: dict[str, Any] = {"sqlite": sqlite_insert, "postgresql": postgresql_insert}
 
 
 def get(session: Session, run_id: int) -> Run | None:
@@ -39,11 +45,22 @@ def events(session: Session, run_id: int) -> Sequence[RunEvent]:
 
 def add_events(session: Session, rows: Iterable[dict[str, object]]) -> None:
     """Add events. One whose run and sequence are there already stays as it is."""
-    values = list(rows)
-    if session.get_bind().dialect.name == "sqlite":
-        session.execute(sqlite_insert(RunEvent).on_conflict_do_nothing(), values)
-        return
-    for row in values:
-        key = (row["run_id"], row["sequence"])
-        if session.get(RunEvent, key) is None:
-            session.execute(insert(RunEvent), [row])
+    _insert_new(session, RunEvent, list(rows))
+
+
+def freeze(session: Session, body: Any) -> int:
+    """The number of a document with this content; it is entered where there is none yet."""
+    key = fingerprint(body)
+    query = select(Document.id).where(Document.hash == key)
+    found = session.scalar(query)
+    if found is None:
+        _insert_new(session, Document, [{"hash": key, "body": body}])
+        found = session.scalars(query).one()
+    return found
+
+
+def _insert_new(session: Session, table: type[Base], rows: list[dict[str, Any]]) -> None:
+    """Insert rows; one whose key is there already stays as it is."""
+    if rows:
+        insert = _INSERT[session.get_bind().dialect.name]
+        session.execute(insert(table).on_conflict_do_nothing(), rows)

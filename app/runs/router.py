@@ -18,7 +18,7 @@ MOST_POINTS = 20_000
 @router.post("", status_code=201, operation_id="startRun")
 def start_run(body: RunStart, starter: StarterService) -> RunSummary:
     """Start a test. Answers once the loop has begun it."""
-    return RunSummary.of(granted(starter.start(body.test_id)))
+    return RunSummary.of(granted(starter.start(body)))
 
 
 @router.get("", operation_id="listRuns")

@@ -3,26 +3,46 @@
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints
 
 from app.recording.outcome import Outcome
 from app.runs.models import Run, RunEvent
 
+LONGEST_NOTES = 20_000
+SHOWN_NOTES = 200  # in a list
+
+Tag = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=50)]
+Operator = Annotated[str, StringConstraints(strip_whitespace=True, max_length=100)]
+Notes = Annotated[str, Field(max_length=LONGEST_NOTES)]
+
+
+def _each_once(tags: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(sorted(set(tags)))
+
+
+Tags = Annotated[tuple[Tag, ...], Field(max_length=50), AfterValidator(_each_once)]
+
 
 class RunStart(BaseModel):
-    """Which test to run."""
+    """Which test to run, and what to note of the run; without a revision, the newest."""
 
     model_config = ConfigDict(extra="forbid")
 
     test_id: Annotated[str, Field(min_length=1, max_length=100)]
+    revision: Annotated[int, Field(ge=1, le=2**31 - 1)] | None = None
+    override_reason: Annotated[str, Field(min_length=1, max_length=500)] | None = None
+    operator: Operator = ""
+    notes: Notes = ""
+    tags: Tags = ()
 
 
 class RunSummary(BaseModel):
-    """A run in the list; `outcome` is null while it is under way."""
+    """A run in the list; `outcome` is null while it is under way, `notes` begin here."""
 
     id: int
     test_id: str
     test_name: str
+    revision: int | None
     started_at: datetime
     ended_at: datetime | None
     outcome: Outcome | None
@@ -31,13 +51,19 @@ class RunSummary(BaseModel):
     missing_ticks: int
     duration_s: float | None
     reason: str | None
+    prediction_verdict: Literal["clear", "caution", "refused"] | None
+    override_reason: str | None
+    operator: str
+    tags: list[str]
+    notes: str
+    annotation: int
 
     @staticmethod
     def fields_of(run: Run) -> dict[str, Any]:
-        """The fields of a summary from its row."""
-        names = RunSummary.model_fields.keys() - {"duration_s"}
-        duration_s = run.ticks * run.period_ns * 1e-9 if run.outcome else None
-        return {name: getattr(run, name) for name in names} | {"duration_s": duration_s}
+        """The fields of a summary from its row; of the notes only the beginning."""
+        names = RunSummary.model_fields.keys() - {"tags", "notes"}
+        fields = {name: getattr(run, name) for name in names}
+        return fields | {"tags": list(run.tags), "notes": run.notes[:SHOWN_NOTES]}
 
     @staticmethod
     def of(run: Run) -> "RunSummary":
@@ -61,7 +87,8 @@ class RunDetail(RunSummary):
     def of(run: Run) -> "RunDetail":
         more = RunDetail.model_fields.keys() - RunSummary.model_fields.keys() - {"period_s"}
         fields = RunSummary.fields_of(run) | {name: getattr(run, name) for name in more}
-        return RunDetail.model_validate(fields | {"period_s": run.period_ns * 1e-9})
+        whole = {"period_s": run.period_ns * 1e-9, "notes": run.notes}
+        return RunDetail.model_validate(fields | whole)
 
 
 class RunPage(BaseModel):

@@ -18,6 +18,7 @@ from app.recording.recorder import Recorder
 from app.runs import repository
 from app.runs.models import Run
 from app.runs.plans import Plans
+from app.runs.schemas import RunStart
 from app.settings import VERSION
 from rtcore.codes import Opcode
 
@@ -58,15 +59,15 @@ class Starter:
         self._unanswered: set[int] = set()
         self._one_at_a_time = Lock()
 
-    def start(self, test_id: str) -> Run | Refusal:
+    def start(self, asked: RunStart) -> Run | Refusal:
         """Run a test of the library. Returns its row once the loop has begun it."""
-        definition = library().get(test_id)
+        definition = library().get(asked.test_id)
         if definition is None:
-            return Refusal(Code.UNKNOWN_TEST, f"There is no test {test_id!r}")
+            return Refusal(Code.UNKNOWN_TEST, f"There is no test {asked.test_id!r}")
         with self._one_at_a_time:
-            return self._start(test_id, definition)
+            return self._start(asked, definition)
 
-    def _start(self, test_id: str, definition: Definition) -> Run | Refusal:
+    def _start(self, asked: RunStart, definition: Definition) -> Run | Refusal:
         life = self._link.life
         refusal = self._why_not()
         if refusal is not None or life is None:
@@ -77,24 +78,26 @@ class Starter:
         refusal = self._link.adopt(Opcode.ADOPT_PROGRAM, expand(definition))
         if refusal is not None:
             return refusal
-        run = self._enter(life, test_id, definition)
+        plan = outline(definition).model_dump(mode="json")
+        run = self._enter(life, asked, definition, plan)
         answer = self._link.ask(Opcode.START, run.id)
         if isinstance(answer, Refusal):
             return self._withdraw(run, answer)
-        self._plans.remember(run)
+        self._plans.remember(run.id, run.test_name, plan)
         return run
 
-    def _enter(self, life: Life, test_id: str, definition: Definition) -> Run:
+    def _enter(
+        self, life: Life, asked: RunStart, definition: Definition, plan: dict[str, Any]
+    ) -> Run:
         """The row of a run that is about to start; its number is how the loop will know it."""
         run = Run(
-            test_id=test_id,
+            test_id=asked.test_id,
             test_name=definition.name,
-            definition=definition.model_dump(mode="json", by_alias=True),
-            plan=outline(definition).model_dump(mode="json"),
-            controller=dict(self._frozen.controller),
-            interlocks=dict(self._frozen.interlocks),
-            rig=dict(self._frozen.rig),
-            conditions=life.conditions(),
+            revision=asked.revision,
+            operator=asked.operator,
+            notes=asked.notes,
+            tags=list(asked.tags),
+            override_reason=asked.override_reason,
             software_version=VERSION,
             loop_life=life.name,
             period_ns=life.period_ns,
@@ -103,7 +106,17 @@ class Starter:
             missing_ticks=0,
             verdict="unset",
         )
+        frozen = {
+            "definition_id": definition.model_dump(mode="json", by_alias=True),
+            "plan_id": plan,
+            "controller_id": dict(self._frozen.controller),
+            "interlocks_id": dict(self._frozen.interlocks),
+            "rig_id": dict(self._frozen.rig),
+            "conditions_id": life.conditions(),
+        }
         with self._database.writing() as session:
+            for column, body in frozen.items():
+                setattr(run, column, repository.freeze(session, body))
             session.add(run)
         return run
 

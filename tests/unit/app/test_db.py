@@ -10,8 +10,10 @@ from alembic.migration import MigrationContext
 from alembic.operations import Operations
 from sqlalchemy import text
 from sqlalchemy.exc import OperationalError
+from sqlalchemy.orm import Session
 
 from app.db import Base, Database
+from app.runs import repository
 from app.runs.models import Run
 
 
@@ -20,16 +22,15 @@ def database(tmp_path: Path) -> Database:
     return Database(f"sqlite:///{tmp_path / 'test.sqlite'}")
 
 
-def a_run(**values: Any) -> Run:
-    frozen: dict[str, Any] = {
-        name: {} for name in ("definition", "plan", "controller", "interlocks", "rig")
-    }
+FROZEN = ("definition", "plan", "controller", "interlocks", "rig", "conditions")
+
+
+def a_run(session: Session, **values: Any) -> Run:
     return Run(
-        **frozen,
+        **{f"{name}_id": repository.freeze(session, {name: 1}) for name in FROZEN},
         **{
             "test_id": "t",
             "test_name": "T",
-            "conditions": [],
             "software_version": "0",
             "loop_life": "1-1",
             "period_ns": 250_000,
@@ -39,11 +40,17 @@ def a_run(**values: Any) -> Run:
     )
 
 
+def _declared(thing: Any, name: str | None, kind: str, reflected: bool, other: Any) -> bool:
+    """What the models declare: not what each database indexes words with."""
+    return not (name or "").startswith(("runs_words", "words_index"))
+
+
 def test_the_migrations_make_the_tables_that_the_code_expects(database: Database) -> None:
     database.upgrade()
     database.upgrade()  # the second start
     with database.engine.connect() as connection:
-        context = MigrationContext.configure(connection, opts={"compare_type": True})
+        options = {"compare_type": True, "include_object": _declared}
+        context = MigrationContext.configure(connection, opts=options)
         assert compare_metadata(context, Base.metadata) == []
     database.close()
 
@@ -85,8 +92,8 @@ def test_the_number_of_a_run_is_never_given_again(database: Database) -> None:
     database.upgrade()
     numbers = []
     for _ in range(3):
-        run = a_run()
         with database.writing() as session:
+            run = a_run(session)
             session.add(run)
         numbers.append(run.id)
         with database.writing() as session:
@@ -100,7 +107,7 @@ def test_a_transaction_that_fails_leaves_nothing(database: Database) -> None:
 
     def fail() -> None:
         with database.writing() as session:
-            session.add(a_run())
+            session.add(a_run(session))
             session.flush()
             session.execute(text("SELECT * FROM nowhere"))
 
@@ -115,7 +122,7 @@ def test_times_come_back_aware_and_the_same(database: Database) -> None:
     database.upgrade()
     then = datetime(2026, 3, 1, 12, 0, tzinfo=timezone(timedelta(hours=9)))
     with database.writing() as session:
-        session.add(a_run(started_at=then))
+        session.add(a_run(session, started_at=then))
     with database.reading() as session:
         (run,) = session.query(Run).all()
         assert run.started_at == then

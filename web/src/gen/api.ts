@@ -739,6 +739,8 @@ export interface components {
          * @description A run with everything that it was made with.
          */
         RunDetail: {
+            /** Annotation */
+            annotation: number;
             /** Conditions */
             conditions: {
                 [key: string]: unknown;
@@ -767,11 +769,21 @@ export interface components {
             last_tick: number | null;
             /** Missing Ticks */
             missing_ticks: number;
+            /** Notes */
+            notes: string;
+            /** Operator */
+            operator: string;
             outcome: components["schemas"]["Outcome"] | null;
+            /** Override Reason */
+            override_reason: string | null;
             /** Period S */
             period_s: number;
+            /** Prediction Verdict */
+            prediction_verdict: ("clear" | "caution" | "refused") | null;
             /** Reason */
             reason: string | null;
+            /** Revision */
+            revision: number | null;
             /** Rig */
             rig: {
                 [key: string]: unknown;
@@ -783,6 +795,8 @@ export interface components {
              * Format: date-time
              */
             started_at: string;
+            /** Tags */
+            tags: string[];
             /** Test Id */
             test_id: string;
             /** Test Name */
@@ -875,17 +889,38 @@ export interface components {
         };
         /**
          * RunStart
-         * @description Which test to run.
+         * @description Which test to run, and what to note of the run; without a revision, the newest.
          */
         RunStart: {
+            /**
+             * Notes
+             * @default
+             */
+            notes: string;
+            /**
+             * Operator
+             * @default
+             */
+            operator: string;
+            /** Override Reason */
+            override_reason?: string | null;
+            /** Revision */
+            revision?: number | null;
+            /**
+             * Tags
+             * @default []
+             */
+            tags: string[];
             /** Test Id */
             test_id: string;
         };
         /**
          * RunSummary
-         * @description A run in the list; `outcome` is null while it is under way.
+         * @description A run in the list; `outcome` is null while it is under way, `notes` begin here.
          */
         RunSummary: {
+            /** Annotation */
+            annotation: number;
             /** Duration S */
             duration_s: number | null;
             /** Ended At */
@@ -894,14 +929,26 @@ export interface components {
             id: number;
             /** Missing Ticks */
             missing_ticks: number;
+            /** Notes */
+            notes: string;
+            /** Operator */
+            operator: string;
             outcome: components["schemas"]["Outcome"] | null;
+            /** Override Reason */
+            override_reason: string | null;
+            /** Prediction Verdict */
+            prediction_verdict: ("clear" | "caution" | "refused") | null;
             /** Reason */
             reason: string | null;
+            /** Revision */
+            revision: number | null;
             /**
              * Started At
              * Format: date-time
              */
             started_at: string;
+            /** Tags */
+            tags: string[];
             /** Test Id */
             test_id: string;
             /** Test Name */

@@ -13,7 +13,6 @@ from app.link.link import Link
 from app.recording.recorder import Recorder, RecorderState
 from app.rigs.schemas import RigStatus
 from app.rigs.status import StatusReader
-from app.runs.models import Run
 from app.runs.plans import Plans
 from rtcore.modes import Mode
 from tests.written_block import APP_SILENCE, FORCE_ERROR, PERIOD_S, WrittenBlock
@@ -95,7 +94,7 @@ def test_limits_are_those_of_the_detectors_in_force(loop: WrittenBlock) -> None:
 def test_the_run_under_way_with_what_is_expected_of_it(loop: WrittenBlock) -> None:
     plans = Plans()
     plan = {"blocks": [{"cycles": 0}, {"cycles": 200}], "duration_s": 4.8}
-    plans.remember(Run(id=7, test_name="Harmonic", plan=plan))
+    plans.remember(7, "Harmonic", plan)
     loop.begin(7)
     loop.ticks(41, run=7, block=1, cycle=17)
     loop.block.fields["program_ticks"] = 40  # one of them held
