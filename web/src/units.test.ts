@@ -6,13 +6,16 @@ import {
   figure,
   figureWidth,
   FORCE,
+  fromEntry,
   LENGTH,
   localTime,
   microseconds,
+  PLAIN,
   PRESSURE,
   quantityOf,
   RATIO,
   SPEED,
+  toEntry,
   withUnit,
 } from "./units";
 
@@ -83,5 +86,21 @@ describe("counts and times", () => {
   it("shows a moment on the clock of the reader", () => {
     expect(localTime("2024-11-22T06:03:09Z", "Europe/Rome")).toBe("2024-11-22 07:03:09");
     expect(localTime("not a time")).toBe("—");
+  });
+});
+
+describe("fields", () => {
+  it("show as many digits as a value has, and read back what they show", () => {
+    expect(toEntry(FORCE, 1234.5)).toBe("1.2345");
+    expect(toEntry(FORCE, -2000)).toBe("\u22122");
+    for (const si of [0, 1, -0.1, 2000, 1100, 49_999.9, 1e-3]) expect(fromEntry(FORCE, toEntry(FORCE, si))).toBe(si);
+  });
+
+  it("take a decimal comma, spaces between thousands and a true minus, and refuse what is no figure", () => {
+    expect(fromEntry(FORCE, " 1,5 ")).toBe(1500);
+    expect(fromEntry(FORCE, "\u22122.5")).toBe(-2500);
+    expect(fromEntry(PLAIN, "1 000 000")).toBe(1e6);
+    expect(fromEntry(PLAIN, "1e6")).toBe(1e6);
+    for (const text of ["", "-", "abc", "1,2,3", "0x10", "1 kN"]) expect(fromEntry(FORCE, text), text).toBeNull();
   });
 });

@@ -18,10 +18,20 @@ export const SPEED: Quantity = { label: "Velocity", symbol: "mm/s", scale: 1e3, 
 export const PRESSURE: Quantity = { label: "Pressure", symbol: "bar", scale: 1e-5, digits: 1 };
 export const RATIO: Quantity = { label: "Valve", symbol: "%", scale: 100, digits: 1 };
 export const TIME: Quantity = { label: "Time", symbol: "s", scale: 1, digits: 2 };
+export const FORCE_RATE: Quantity = { label: "Rate", symbol: "kN/s", scale: 1e-3, digits: 1 };
+export const FREQUENCY: Quantity = { label: "Frequency", symbol: "Hz", scale: 1, digits: 1 };
+export const ANGLE: Quantity = { label: "Phase", symbol: "°", scale: 1, digits: 1 };
+export const PERCENT: Quantity = { label: "", symbol: "%", scale: 1, digits: 1 };
+export const OCTAVES: Quantity = { label: "Sweep rate", symbol: "oct/s", scale: 1, digits: 2 };
 export const PLAIN: Quantity = { label: "", symbol: "", scale: 1, digits: 2 };
 
 const BY_SUFFIX: readonly (readonly [string, Quantity])[] = [
+  ["_octaves_s", OCTAVES],
+  ["_n_s", FORCE_RATE],
   ["_m_s", SPEED],
+  ["_hz", FREQUENCY],
+  ["_deg", ANGLE],
+  ["_percent", PERCENT],
   ["_pa", PRESSURE],
   ["_n", FORCE],
   ["_m", LENGTH],
@@ -51,6 +61,19 @@ export function figure(quantity: Quantity, si: number | null | undefined, extraD
 export function withUnit(quantity: Quantity, si: number | null | undefined, extraDigits = 0): string {
   const text = figure(quantity, si, extraDigits);
   return quantity.symbol === "" ? text : `${text}\u00a0${quantity.symbol}`;
+}
+
+/** A value as one types it into a field: as many digits as it has, and no more. */
+export function toEntry(quantity: Quantity, si: number): string {
+  return signed(String(Number((si * quantity.scale).toPrecision(12))));
+}
+
+/** What was typed into a field, in SI; null where it is no figure. A decimal comma is one; so is a true minus. */
+export function fromEntry(quantity: Quantity, text: string): number | null {
+  const plain = text.replace(/[\s\u00a0\u202f']/g, "").replace(MINUS, "-").replace(/^([^.,]*),([^.,]*)$/, "$1.$2");
+  if (!/^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(plain)) return null;
+  const value = Number((Number(plain) / quantity.scale).toPrecision(12));
+  return Number.isFinite(value) ? value : null;
 }
 
 /** The widest figure that a quantity shows between ± limit, in characters: for columns that stand still. */
