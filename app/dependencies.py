@@ -6,6 +6,7 @@ from typing import Annotated, cast
 from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
+from app.histories.store import Store
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.runs.service import Runs
@@ -19,6 +20,10 @@ def console(connection: HTTPConnection) -> Console:
 
 
 ThisConsole = Annotated[Console, Depends(console)]
+
+
+def _histories(this: ThisConsole) -> Store:
+    return this.histories
 
 
 def _status(this: ThisConsole) -> StatusReader:
@@ -41,6 +46,7 @@ def _starter(this: ThisConsole) -> Starter:
     return this.starter
 
 
+HistoryStore = Annotated[Store, Depends(_histories)]
 Status = Annotated[StatusReader, Depends(_status)]
 RigService = Annotated[Rig, Depends(_rig)]
 CommandThreads = Annotated[Executor, Depends(_command_threads)]

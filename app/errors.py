@@ -16,6 +16,8 @@ class Code(StrEnum):
     FOREIGN_ORIGIN = "foreign_origin"
     UNKNOWN_HOST = "unknown_host"
     UNKNOWN_TEST = "unknown_test"
+    INVALID_HISTORY = "invalid_history"
+    HISTORY_EXISTS = "history_exists"
     UNKNOWN_RUN = "unknown_run"
     UNKNOWN_CHANNEL = "unknown_channel"
     INVALID_TEST = "invalid_test"

@@ -17,6 +17,7 @@ from app.catalogue.router import router as tests_router
 from app.docs_page import docs_page
 from app.errors import Refusal
 from app.health import router as health_router
+from app.histories.router import router as histories_router
 from app.live.router import router as live_router
 from app.presets import Presets, load_presets
 from app.problems import install_handlers
@@ -57,7 +58,14 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
     )
     app.add_middleware(Guard, hosts=known_hosts(settings.allowed_hosts))
     install_handlers(app)
-    for router in (health_router, rig_router, tests_router, runs_router, live_router):
+    for router in (
+        health_router,
+        rig_router,
+        tests_router,
+        histories_router,
+        runs_router,
+        live_router,
+    ):
         app.include_router(router)
 
     @app.get("/docs", include_in_schema=False)

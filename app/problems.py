@@ -25,6 +25,8 @@ STATUS: Mapping[Code, int] = {
     Code.FOREIGN_ORIGIN: 403,
     Code.UNKNOWN_HOST: 403,
     Code.UNKNOWN_TEST: 404,
+    Code.INVALID_HISTORY: 422,
+    Code.HISTORY_EXISTS: 409,
     Code.UNKNOWN_RUN: 404,
     Code.UNKNOWN_CHANNEL: 422,
     Code.INVALID_TEST: 422,

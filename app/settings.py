@@ -37,3 +37,8 @@ class Settings(BaseSettings):
     def runs_dir(self) -> Path:
         """Where the samples of the runs are kept, a folder a run."""
         return self.data_dir.resolve() / "runs"
+
+    @property
+    def histories_dir(self) -> Path:
+        """Where time histories are kept, a folder each."""
+        return self.data_dir.resolve() / "histories"

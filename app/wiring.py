@@ -5,6 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from app.controller.record import to_record as gains_record
 from app.db import Database
+from app.histories.store import Store
 from app.interlocks.record import to_record as interlocks_record
 from app.link.link import Link
 from app.link.paths import block_path
@@ -38,6 +39,7 @@ class Console:
             rig=presets.rig.model_dump(mode="json"),
         )
         self.database = Database(settings.database_address)
+        self.histories = Store(settings.histories_dir)
         self._clerk = Clerk(settings.runs_dir, Ledger(self.database, self._runs_changed))
         self.recorder = Recorder(settings.runs_dir, self._clerk)
         block = block_path(settings.data_dir)
