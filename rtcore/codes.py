@@ -45,3 +45,4 @@ class EventKind(IntEnum):
     BLOCK = 4
     PROGRAM_ENDED = 5
     DEADLINES_MISSED = 6
+    PROGRAM_FAULT = 7  # a streamed program that did not come in time, or leads beyond the limits

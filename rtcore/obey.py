@@ -11,10 +11,16 @@ from rtcore.control.law import adopt_gains, gains_are_valid
 from rtcore.interlocks import interlocks_are_valid
 from rtcore.memory.commands import acknowledge, pending
 from rtcore.memory.layout import COMMAND_SLOTS
+from rtcore.memory.playing import rewind
 from rtcore.memory.rings import publish_event
 from rtcore.modes import Event, Mode, is_run
 from rtcore.program.segments import Segment
-from rtcore.program.validate import repeat_is_too_deep, segment_is_valid, table_is_bounded
+from rtcore.program.validate import (
+    is_played_once,
+    repeat_is_too_deep,
+    segment_is_valid,
+    table_is_bounded,
+)
 from rtcore.supervise import apply_event, clear_trips, keep_trips, start_run
 
 # The event of the mode that a command is, by opcode; -1 for those that are none.
@@ -101,13 +107,13 @@ def _check_next_segments(core: Record, table: Record, first: int, limit: float) 
         s = table.segments[i]
         if not segment_is_valid(s, i, limit, 0.5 / core.settings.period_s):
             return -1
-        if s.kind == Segment.REPEAT and repeat_is_too_deep(table, i):
+        if s.kind == Segment.REPEAT and (table.streamed != 0 or repeat_is_too_deep(table, i)):
             return -1
     return last
 
 
 @kernel
-def _adopt_program(core: Record, block: Record, bank: int) -> int:
+def _adopt_program(core: Record, block: Record, block_address: int, bank: int) -> int:
     """Check a few segments each tick, adopt when all are good. BUSY meanwhile."""
     if not 0 <= bank <= 1 or (bank == block.active_program and core.has_program != 0):
         return Reply.INVALID_BANK
@@ -135,6 +141,21 @@ def _adopt_program(core: Record, block: Record, bank: int) -> int:
         return Reply.BUSY
     block.active_program = bank
     core.has_program = 1
+    rewind(core, block, block_address)
+    return Reply.ACCEPTED
+
+
+@kernel
+def _start(core: Record, block: Record, block_address: int, run: int) -> int:
+    """Begin the adopted program. What is streamed to the loop is played once."""
+    if core.has_program == 0 or run < 1:
+        return Reply.NO_PROGRAM
+    program = block.programs[block.active_program]
+    if not start_run(core, program, block_address, _EVENT_OF[Opcode.START], run):
+        return Reply.WRONG_MODE
+    block.program_ticks = 0
+    if is_played_once(program):
+        core.has_program = 0
     return Reply.ACCEPTED
 
 
@@ -143,7 +164,7 @@ def _carry_out(core: Record, block: Record, block_address: int, opcode: int, arg
     if opcode in (Opcode.ADOPT_GAINS, Opcode.ADOPT_INTERLOCKS):
         return _adopt_small(core, block, opcode, argument)
     if opcode == Opcode.ADOPT_PROGRAM:
-        return _adopt_program(core, block, argument)
+        return _adopt_program(core, block, block_address, argument)
     if opcode == Opcode.RESET:
         return _reset(core, block, block_address)
     if opcode == Opcode.TARE:
@@ -155,13 +176,7 @@ def _carry_out(core: Record, block: Record, block_address: int, opcode: int, arg
     if core.trips != 0 and opcode in (Opcode.PRESSURISE, Opcode.START, Opcode.RESUME):
         return Reply.CAUSE_PRESENT
     if opcode == Opcode.START:
-        if core.has_program == 0 or argument < 1:
-            return Reply.NO_PROGRAM
-        program = block.programs[block.active_program]
-        started = start_run(core, program, block_address, _EVENT_OF[opcode], argument)
-        if started:
-            block.program_ticks = 0
-        return _done(started)
+        return _start(core, block, block_address, argument)
     return _done(apply_event(core, block_address, _EVENT_OF[opcode]))
 
 

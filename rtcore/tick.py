@@ -8,11 +8,14 @@ from rtcore.check import check_detectors, collect_quantities
 from rtcore.codes import EventKind
 from rtcore.compiled import Record, carray, kernel, pointer
 from rtcore.control.law import closed_loop, open_loop
+from rtcore.interlocks import Action
+from rtcore.memory.playing import publish_playing, see_what_has_come
 from rtcore.memory.rings import next_record_address, publish_event, publish_record
 from rtcore.memory.snapshot import write_snapshot
 from rtcore.modes import Event, Mode, is_closed_loop, is_run
 from rtcore.obey import take_command
 from rtcore.program.generator import generate, rest
+from rtcore.program.validate import plays_within
 from rtcore.sample import take_sample
 from rtcore.supervise import apply_event, progress, react, wanted_supply
 
@@ -114,15 +117,37 @@ def set_points(core: Record, block: Record, block_address: int) -> None:
             rest(core.motion, core.motion.value - min(max(core.motion.value, -step), step))
         return
     program = block.programs[block.active_program]
+    see_what_has_come(core, block, block_address)
     before = core.force.block
     holding, stopping = core.mode == Mode.HOLDING, core.mode == Mode.STOPPING
     hold, stop, period_s = settings.hold_fade_ticks, settings.stop_fade_ticks, settings.period_s
     generate(core.force, program.force, holding, stopping, hold, stop, period_s)
     generate(core.motion, program.motion, holding, stopping, hold, stop, period_s)
+    watch_program(core, program, block_address)
+    publish_playing(core, block, block_address)
     if core.mode == Mode.RUNNING and core.force.hold_ticks == 0:
         block.program_ticks += 1
     if core.force.block != before:
         publish_event(block_address, core.tick, EventKind.BLOCK, core.force.block, core.run, 0.0)
+
+
+@kernel
+def watch_program(core: Record, program: Record, block_address: int) -> None:
+    """What is streamed has not all been checked before: stop where it does not come, trip where it leads astray."""
+    settings = core.settings
+    rate_limit_hz = 0.5 / settings.period_s
+    astray = not (
+        plays_within(core.force, program.force, settings.force_limit_n, rate_limit_hz)
+        and plays_within(core.motion, program.motion, settings.displacement_limit_m, rate_limit_hz)
+    )
+    starved = core.mode == Mode.RUNNING and core.force.starved + core.motion.starved > 0
+    if not (astray or starved):
+        return
+    publish_event(block_address, core.tick, EventKind.PROGRAM_FAULT, int(astray), core.run, 0.0)
+    if astray:
+        apply_event(core, block_address, Event.TRIP)
+    else:
+        react(core, block_address, Action.STOP)
 
 
 @kernel

@@ -14,15 +14,18 @@ from rtcore.compiled import carray, entry, pointer
 from rtcore.io.simulated import SimulatedIo, cycle
 from rtcore.memory.commands import acknowledgement, post
 from rtcore.memory.layout import BLOCK
+from rtcore.memory.playing import read_playing
 from rtcore.memory.rings import event_reader
 from rtcore.memory.segment import private_block
 from rtcore.modes import Mode
+from rtcore.program.stream import Program, ProgramWriter, resident
 from rtcore.rig.parameters import RigParameters, load_rig
 from rtcore.rig.plant import STATES
 from rtcore.rig.world import WORLD
 
 RING_SECONDS = 1.0
 PERIOD_S = 250e-6
+FEED_TICKS = 1024  # between two looks at what a streamed program needs: its rings hold more
 
 
 @entry
@@ -71,6 +74,7 @@ class Virtual:
         self.keep_states = False
         self.states: npt.NDArray[np.float64] = np.empty((0, STATES))
         self._events = event_reader(self.block)
+        self._writer: ProgramWriter | None = None
         self.block.fields["gains"][1] = gains
         self.block.fields["interlocks"][1] = interlocks
         for opcode in (Opcode.ADOPT_GAINS, Opcode.ADOPT_INTERLOCKS):
@@ -92,7 +96,7 @@ class Virtual:
         done = 0
         slots = len(self.block.ring)
         while done < ticks:
-            count = min(ticks - done, slots)
+            count = min(ticks - done, self._feed(slots))
             first = self.tick
             place = states[done:].ctypes.data if self.keep_states else 0
             run_ticks(*self.io.addresses, first, count, self.app_beats, place)
@@ -112,11 +116,25 @@ class Virtual:
             self.advance(1)
         return Reply(answer[0])
 
-    def load_program(self, program: Any) -> Reply:
-        """Fill the idle bank with a PROGRAM record and have the loop adopt it."""
+    def load_program(self, program: Program | Any) -> Reply:
+        """Fill the idle bank with a program (or a PROGRAM record) and have the loop adopt it."""
+        given = program if isinstance(program, Program) else resident(program)
         bank = 1 - int(self.block.fields["active_program"])
-        self.block.fields["programs"][bank] = program
-        return self.command(Opcode.ADOPT_PROGRAM, bank)
+        writer = ProgramWriter(self.block.fields["programs"][bank], given)
+        reply = self.command(Opcode.ADOPT_PROGRAM, bank)
+        if reply == Reply.ACCEPTED:
+            self._writer = writer
+        return reply
+
+    def _feed(self, ticks: int) -> int:
+        """Give the loop more of a streamed program; returns for how many ticks that is enough."""
+        writer = self._writer
+        if writer is None or not writer.streaming:
+            return ticks
+        playing = read_playing(self.block)
+        if playing is not None:
+            writer.fill(playing)
+        return min(ticks, FEED_TICKS)
 
     def bring_to_ready(self, within_s: float = 20.0) -> None:
         """Reset, pressurise, and wait. Raises RuntimeError where the rig does not become ready."""

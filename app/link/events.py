@@ -24,7 +24,7 @@ class LoopEvent:
     text: str
     value: float
     limit: float
-    ends_run: bool = False  # a detector tripped that takes the load off
+    ends_run: bool = False  # a detector or the program itself took the load off
     detector: int = -1  # of a trip: its place in the table
 
     def is_mode(self, mode: Mode) -> bool:
@@ -59,7 +59,7 @@ class EventReader:
 def describe(record: Any, detectors: npt.NDArray[Any], period_ns: int) -> LoopEvent:
     """An EVENT record in words."""
     kind, code, text = _words(record, detectors, period_ns)
-    ends_run = kind == "trip" and _action(detectors, int(record["code"])) >= Action.STOP
+    stops = kind == "trip" and _action(detectors, int(record["code"])) >= Action.STOP
     return LoopEvent(
         sequence=int(record["sequence"]),
         tick=int(record["tick"]),
@@ -69,7 +69,7 @@ def describe(record: Any, detectors: npt.NDArray[Any], period_ns: int) -> LoopEv
         text=text,
         value=float(record["value"]),
         limit=float(record["limit"]),
-        ends_run=ends_run,
+        ends_run=stops or kind == "program_fault",
         detector=int(record["code"]) if kind == "trip" else -1,
     )
 
@@ -97,6 +97,13 @@ def _words(record: Any, detectors: npt.NDArray[Any], period_ns: int) -> tuple[st
             return "block", str(code), f"Block {code + 1}" if code >= 0 else "Between blocks"
         case EventKind.PROGRAM_ENDED:
             return "program_ended", "program_ended", "The test has run to its end"
+        case EventKind.PROGRAM_FAULT:
+            astray, starved = (
+                "The test led beyond the limits",
+                "The test did not reach the loop in time",
+            )
+            text = astray if code else starved
+            return "program_fault", "astray" if code else "starved", text
         case EventKind.DEADLINES_MISSED:
             deadlines = "1 deadline" if code == 1 else f"{code} deadlines"
             text = f"{deadlines} missed, up to {value * 1e-6:.1f} ms late"

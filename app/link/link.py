@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from app.errors import Code, Refusal
-from app.link.banks import adopt
+from app.link.banks import adopt, load
 from app.link.commander import Answer, Commander
+from app.link.feeder import Feeder
 from app.link.heartbeat import Heartbeat
 from app.link.life import Life
 from app.link.process import LoopCommand, end_loop
@@ -16,6 +17,7 @@ from app.link.supervisor import Supervisor
 from rtcore.codes import Opcode, Reply
 from rtcore.memory.segment import BlockError, lock_single_loop
 from rtcore.modes import is_run
+from rtcore.program.stream import Program
 
 _log = logging.getLogger(__name__)
 _LOAD_OFF_S = 15.0
@@ -34,6 +36,7 @@ class Link:
         self._heard = on_life
         self._heartbeat = Heartbeat()
         self._supervisor = Supervisor(command, self._on_life, lambda life: configure(self))
+        self._feeder: Feeder | None = None
         self.commander = Commander()
 
     @property
@@ -76,6 +79,27 @@ class Link:
             return Refusal(Code.LOOP_LOST, "The loop process does not run")
         return adopt(life, self.commander, opcode, record)
 
+    def load_program(self, program: Program) -> Refusal | None:
+        """Have the loop take over a program, and go on giving what is longer than its bank.
+
+        None where it did; then nothing of the program before it is given any more.
+        """
+        life = self.life
+        if life is None:
+            return Refusal(Code.LOOP_LOST, "The loop process does not run")
+        feeder = load(life, self.commander, program)
+        if isinstance(feeder, Refusal):
+            return feeder
+        self._stop_feeding()
+        self._feeder = feeder
+        feeder.start()
+        return None
+
+    def _stop_feeding(self) -> None:
+        if self._feeder is not None:
+            self._feeder.stop()
+            self._feeder = None
+
     def take_load_off(self) -> None:
         """Stop, wait until the load is off, depressurise: what a clean end of the console does."""
         life = self.life
@@ -89,6 +113,7 @@ class Link:
 
     def end_loop(self) -> None:
         """End the loop process, so that none is left without a console."""
+        self._stop_feeding()
         self._supervisor.stop()
         life = self.life
         if life is not None and not life.ended:

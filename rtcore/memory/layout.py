@@ -9,6 +9,7 @@ from rtcore.codes import EventKind, Opcode, Reply
 from rtcore.control.gains import GAINS
 from rtcore.interlocks import INTERLOCKS, Action, Comparison, Quantity
 from rtcore.modes import Mode
+from rtcore.program.generator import GENERATOR
 from rtcore.program.segments import PROGRAM, Branch, Segment
 
 MAGIC = 0x4749524543524F46  # "FORCERIG", little-endian
@@ -66,6 +67,9 @@ BLOCK = np.dtype(
             "program_ticks",
             "i8",
         ),  # of this run in which its program went on: not held, not being stopped
+        ("playing_sequence", "i8"),  # odd while the two after it are being written
+        ("playing_force", GENERATOR),
+        ("playing_motion", GENERATOR),
         ("first_out", "i8"),  # detector that tripped first since the last reset, -1 for none
         ("active_gains", "i8"),
         ("active_interlocks", "i8"),

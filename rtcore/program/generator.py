@@ -3,6 +3,7 @@
 Time within a segment is a whole number of ticks and phase is computed from it, never accumulated, so nothing
 drifts. Holding freezes that time and fades the harmonic part to its mean, while the oscillator runs on; so a hold
 costs no cycle, counts none that was faded, and resumes by fading in again. Stopping fades everything to zero.
+Where a streamed program has not come in time, the setpoint stays, and `starved` says so.
 """
 
 import math
@@ -10,7 +11,7 @@ import math
 import numpy as np
 
 from rtcore.compiled import Record, kernel
-from rtcore.program.segments import MAX_DEPTH, Branch, Segment
+from rtcore.program.segments import MAX_DEPTH, MAX_KNOTS, MAX_SEGMENTS, Branch, Segment
 
 GENERATOR = np.dtype(
     [
@@ -22,6 +23,12 @@ GENERATOR = np.dtype(
         ("repeat_segment", "i8", (MAX_DEPTH,)),
         ("repeat_pass", "i8", (MAX_DEPTH,)),
         ("ended", "i8"),
+        # what there is of a streamed program
+        ("segments_ready", "i8"),
+        ("knots_ready", "i8"),
+        ("first_knot", "i8"),  # of the segment
+        ("knot", "i8"),  # the first that is still needed
+        ("starved", "i8"),
         # how the segment began
         ("from_value", "f8"),
         ("from_mean", "f8"),
@@ -45,6 +52,8 @@ GENERATOR = np.dtype(
 )
 
 MOST_SEGMENTS_A_TICK = 64  # a table whose segments take no time cannot keep the tick
+_SEGMENT_MASK = MAX_SEGMENTS - 1
+_KNOT_MASK = MAX_KNOTS - 1
 
 
 @kernel
@@ -63,6 +72,10 @@ def start(g: Record, table: Record, value: float, period_s: float) -> None:
     g.stop_ticks = 0
     g.cycles_before = 0
     g.block = -1
+    g.segments_ready = table.count
+    g.knots_ready = table.knot_count
+    g.knot = 0
+    g.starved = 0
     rest(g, value)
     _enter(g, table.segments[0], period_s)
 
@@ -79,13 +92,53 @@ def rest(g: Record, value: float) -> None:
 
 
 @kernel
+def has_phase(kind: int) -> bool:
+    """Whether a segment is a sine: harmonic or sweep."""
+    return kind == Segment.HARMONIC or kind == Segment.SWEEP
+
+
+@kernel
+def _octave_share(g: Record, s: Record, tick: int) -> float:
+    """The exponent that a sweep's frequency has grown by."""
+    return math.log(s.frequency_to_hz / g.from_frequency_hz) * tick / g.ticks
+
+
+@kernel
 def _phase(g: Record, s: Record, tick: int, period_s: float) -> float:
-    """Phase (cycles) after so many ticks of a harmonic whose frequency moves linearly."""
+    """Phase (cycles) after so many ticks of a sine whose frequency moves, linearly or exponentially."""
     t = tick * period_s
     phase = g.from_phase + g.from_frequency_hz * t
-    if s.frequency_to_hz != g.from_frequency_hz:
-        phase += 0.5 * (s.frequency_to_hz - g.from_frequency_hz) * t * tick / g.ticks
-    return phase
+    if s.frequency_to_hz == g.from_frequency_hz or tick == 0:
+        return phase
+    if s.kind == Segment.SWEEP:
+        grown = _octave_share(g, s, tick)
+        return g.from_phase + g.from_frequency_hz * t * math.expm1(grown) / grown
+    return phase + 0.5 * (s.frequency_to_hz - g.from_frequency_hz) * t * tick / g.ticks
+
+
+@kernel
+def _frequency_hz(g: Record, s: Record, tick: int) -> float:
+    if s.kind == Segment.SWEEP:
+        return g.from_frequency_hz * math.exp(_octave_share(g, s, tick))
+    return g.from_frequency_hz + tick / g.ticks * (s.frequency_to_hz - g.from_frequency_hz)
+
+
+@kernel
+def _interval(g: Record, s: Record, tick: int, period_s: float) -> int:
+    """Between which two knots of the segment a tick lies: the number of the first."""
+    return min(math.floor(tick * period_s * s.rate_per_s + 1e-9), s.times - 2)
+
+
+@kernel
+def _between_knots(g: Record, s: Record, table: Record, tick: int, period_s: float) -> float:
+    """The cubic through two knots with their slopes (Hermite); the last knot is met exactly."""
+    i = _interval(g, s, tick, period_s)
+    first = g.first_knot + i
+    a, b = table.knots[first & _KNOT_MASK], table.knots[(first + 1) & _KNOT_MASK]
+    u = min(max(tick * period_s * s.rate_per_s - i, 0.0), 1.0)
+    v = 1.0 - u
+    ends = v * v * (1.0 + 2.0 * u) * a.value + u * u * (1.0 + 2.0 * v) * b.value
+    return ends + u * v * (v * a.slope - u * b.slope)
 
 
 @kernel
@@ -101,7 +154,8 @@ def _enter(g: Record, s: Record, period_s: float) -> None:
     g.branch = s.branch
     if s.kind == Segment.LINEAR and s.ticks == 0:
         g.ticks = math.ceil(abs(s.target - g.value) / (s.rate_per_s * period_s) - 1e-9)
-    if s.kind == Segment.HARMONIC:
+    g.first_knot = g.knot
+    if has_phase(s.kind):
         if s.continues != 0:
             g.from_mean = g.mean
             g.from_amplitude = g.amplitude
@@ -114,14 +168,14 @@ def _enter(g: Record, s: Record, period_s: float) -> None:
 
 
 @kernel
-def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
+def _evaluate(g: Record, s: Record, table: Record, tick: int, period_s: float) -> None:
     """Set mean, amplitude, frequency and value at a tick of the segment."""
     share = tick / g.ticks if g.ticks > 0 else 1.0
-    if s.kind == Segment.HARMONIC:
+    if has_phase(s.kind):
         blend = 1.0 - fade(tick, g.ticks)
         g.mean = g.from_mean + blend * (s.mean_to - g.from_mean)
         g.amplitude = g.from_amplitude + blend * (s.amplitude_to - g.from_amplitude)
-        g.frequency_hz = g.from_frequency_hz + share * (s.frequency_to_hz - g.from_frequency_hz)
+        g.frequency_hz = _frequency_hz(g, s, tick)
         phase = _phase(g, s, tick, period_s)
         g.value = g.mean + g.amplitude * math.sin(2.0 * math.pi * (phase - math.floor(phase)))
         return
@@ -130,6 +184,9 @@ def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
         rest(g, g.from_value)
     elif s.kind == Segment.LINEAR:
         rest(g, g.from_value + share * (target - g.from_value))
+    elif s.kind == Segment.SAMPLES:
+        rest(g, _between_knots(g, s, table, tick, period_s))
+        g.mean = g.value if math.isnan(s.mean_to) else s.mean_to
     else:
         blend = 1.0 - fade(tick, g.ticks) if g.ticks > 0 else 1.0
         rest(g, g.from_value + blend * (target - g.from_value))
@@ -137,10 +194,12 @@ def _evaluate(g: Record, s: Record, tick: int, period_s: float) -> None:
 
 
 @kernel
-def _leave(g: Record, s: Record, period_s: float) -> None:
+def _leave(g: Record, s: Record, table: Record, period_s: float) -> None:
     """Set what the segment leaves behind: its value, phase and cycles at its last instant."""
-    _evaluate(g, s, g.ticks, period_s)
-    if s.kind == Segment.HARMONIC:
+    _evaluate(g, s, table, g.ticks, period_s)
+    if s.kind == Segment.SAMPLES:
+        g.knot = g.first_knot + s.times
+    if has_phase(s.kind):
         phase = _phase(g, s, g.ticks, period_s)
         if s.counts != 0:
             g.cycles_before += math.floor(
@@ -170,20 +229,42 @@ def _after_repeat(g: Record, s: Record) -> int:
 
 @kernel
 def _settle(g: Record, table: Record, period_s: float) -> None:
-    """Go on to the segment that this tick belongs to."""
+    """Go on to the segment that this tick belongs to, as far as the program has come."""
     for _ in range(MOST_SEGMENTS_A_TICK):
-        s = table.segments[g.segment]
+        s = table.segments[g.segment & _SEGMENT_MASK]
         if s.kind == Segment.END:
             g.ended = 1
             return
         if s.kind == Segment.REPEAT:
+            if table.streamed != 0:  # what it would go back to is overwritten
+                g.starved = 1
+                return
             g.segment = _after_repeat(g, s)
-        elif g.tick >= g.ticks:
-            _leave(g, s, period_s)
-            g.segment += 1
-        else:
+        elif g.tick < g.ticks:
             return
-        _enter(g, table.segments[g.segment], period_s)
+        elif g.segment + 1 >= g.segments_ready or not _knots_are_there(g, s, g.ticks, period_s):
+            g.starved = 1
+            return
+        else:
+            _leave(g, s, table, period_s)
+            g.segment += 1
+        _enter(g, table.segments[g.segment & _SEGMENT_MASK], period_s)
+
+
+@kernel
+def _knots_are_there(g: Record, s: Record, tick: int, period_s: float) -> bool:
+    """Whether a tick of a segment has its knots; marks the first that is still needed."""
+    if s.kind != Segment.SAMPLES:
+        return True
+    g.knot = g.first_knot + _interval(g, s, tick, period_s)
+    return g.knot + 1 < g.knots_ready
+
+
+@kernel
+def refresh(g: Record, segments_ready: int, knots_ready: int) -> None:
+    """Tell the generator how much of a streamed program has come by now."""
+    g.segments_ready = segments_ready
+    g.knots_ready = knots_ready
 
 
 @kernel
@@ -210,10 +291,15 @@ def generate(
     frozen = stopping or g.hold_ticks > 0
     if not frozen and g.ended == 0:
         _settle(g, table, period_s)
-    s = table.segments[g.segment]
-    _evaluate(g, s, g.tick, period_s)
+    s = table.segments[g.segment & _SEGMENT_MASK]
+    if _knots_are_there(g, s, g.tick, period_s):
+        _evaluate(g, s, table, g.tick, period_s)
+    else:  # the setpoint stays where it is
+        g.from_value = g.value if g.starved == 0 else g.from_value
+        rest(g, g.from_value)
+        g.starved = 1
     g.cycle = g.cycles_before
-    if s.kind == Segment.HARMONIC and s.counts != 0:
+    if has_phase(s.kind) and s.counts != 0:
         turned = _phase(g, s, g.tick, period_s) - g.from_phase
         g.cycle += math.floor(turned + 1e-9)
     if g.hold_ticks > 0:
@@ -223,6 +309,6 @@ def generate(
     if frozen:
         phase = g.from_phase + g.frequency_hz * period_s
         g.from_phase = phase - math.floor(phase)
-    elif g.ended == 0:
+    elif g.ended == 0 and g.starved == 0:
         g.tick += 1
     return g.stop_ticks >= stop_fade_ticks

@@ -2,13 +2,17 @@
 
 A segment picks the setpoint up where the one before left it. A jump is a `SMOOTH` segment of no duration, which is
 what a step is; else only a harmonic that is told where to begin can jump, and the app leads in to that.
+
+Segments and knots lie in rings. A program that fits is there whole before it starts; a longer one is streamed: the
+app overwrites what has been played (`rtcore.program.stream`). Knots are always played in the order of the stream.
 """
 
 from enum import IntEnum
 
 import numpy as np
 
-MAX_SEGMENTS = 4096
+MAX_SEGMENTS = 4096  # a power of two, as is
+MAX_KNOTS = 1 << 16  # 16 s at 4 kHz
 MAX_DEPTH = 8  # repeats within repeats
 
 
@@ -21,6 +25,8 @@ class Segment(IntEnum):
     SMOOTH = 3  # to `target` along half a cosine in `ticks`; a step where ticks is 0
     HARMONIC = 4  # mean, amplitude and frequency move from their first to their second values
     REPEAT = 5  # back to segment `jump`, `times` passes in all
+    SWEEP = 7  # as HARMONIC, but the frequency moves exponentially: so many octaves a second
+    SAMPLES = 8  # plays `times` knots at `rate_per_s`, a cubic between each two
 
 
 class Branch(IntEnum):
@@ -42,9 +48,9 @@ SEGMENT = np.dtype(
         ("times", "i8"),
         ("ticks", "i8"),
         ("target", "f8"),  # N or m
-        ("rate_per_s", "f8"),  # N/s or m/s
+        ("rate_per_s", "f8"),  # N/s or m/s; of samples: knots a second
         ("mean_from", "f8"),  # NaN: the setpoint as it is
-        ("mean_to", "f8"),
+        ("mean_to", "f8"),  # of samples: what a hold fades to, NaN where it stays
         ("amplitude_from", "f8"),
         ("amplitude_to", "f8"),
         ("frequency_from_hz", "f8"),
@@ -54,5 +60,16 @@ SEGMENT = np.dtype(
     align=True,
 )
 
-TABLE = np.dtype([("count", "i8"), ("segments", SEGMENT, (MAX_SEGMENTS,))], align=True)
+KNOT = np.dtype([("value", "f8"), ("slope", "f8")])  # N or m; its change per knot interval
+
+TABLE = np.dtype(
+    [
+        ("count", "i8"),  # segments given so far
+        ("knot_count", "i8"),  # knots given so far
+        ("streamed", "i8"),  # 1: more segments may follow, and none repeats
+        ("segments", SEGMENT, (MAX_SEGMENTS,)),
+        ("knots", KNOT, (MAX_KNOTS,)),
+    ],
+    align=True,
+)
 PROGRAM = np.dtype([("force", TABLE), ("motion", TABLE)], align=True)
