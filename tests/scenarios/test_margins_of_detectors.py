@@ -124,6 +124,32 @@ def test_the_tick_of_an_extreme_is_the_one_in_which_the_loop_trips() -> None:
         assert event.tick - first <= extreme["tick"]
 
 
+@pytest.mark.parametrize("armed", [Mode.RUNNING, Mode.STOPPING])
+def test_what_is_always_violated_trips_after_as_many_armed_ticks_as_it_must_persist(
+    armed: Mode,
+) -> None:
+    def always(persistence_s: float) -> Detector:
+        return Detector(
+            name=f"after_{persistence_s * 1e6:.0f}",
+            quantity=Quantity.DEADLINES_MISSED,  # there are none on the virtual clock
+            comparison=Comparison.BELOW,
+            threshold=1.0,
+            persistence_s=persistence_s,
+            action=Action.INDICATE,
+            armed=(armed,),
+        )
+
+    spans = (0.0, 0.00125, 0.1, 0.5, 0.50025, 50.0)
+    play = _played(3, tuple(always(span) for span in spans))
+    events = {e.detector: e.tick for e in play.events if e.kind == "trip"}
+    assert set(events) >= {0, 1, 2}
+    assert (4 in events) == (armed is Mode.RUNNING)  # the load is taken off in half a second
+    for i, extreme in enumerate(play.watch.extremes):
+        assert (extreme["excess"] > 0) == (i in events)
+        if i in events:
+            assert play.first_tick + extreme["tick"] == events[i]
+
+
 def test_looking_at_a_run_changes_nothing_in_it() -> None:
     setup = _played(7).setup
     watched, bare = made_ready(setup), made_ready(setup)
