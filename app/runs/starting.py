@@ -16,11 +16,12 @@ from app.link.life import Life
 from app.link.link import Link
 from app.recording.recorder import Recorder
 from app.runs import repository
-from app.runs.models import Run
+from app.runs.models import Run, RunTag
 from app.runs.plans import Plans
 from app.runs.schemas import RunStart
 from app.settings import VERSION
 from rtcore.codes import Opcode
+from rtcore.program.stream import resident
 
 _CATCHING_UP = Refusal(
     Code.BUSY, "Cannot start: the recorder is still reading what happened before; try again"
@@ -75,7 +76,7 @@ class Starter:
         if self._recorder.following is not life:
             return _CATCHING_UP
         self._settle()
-        refusal = self._link.adopt(Opcode.ADOPT_PROGRAM, expand(definition))
+        refusal = self._link.load_program(resident(expand(definition)))
         if refusal is not None:
             return refusal
         plan = outline(definition).model_dump(mode="json")
@@ -96,7 +97,7 @@ class Starter:
             revision=asked.revision,
             operator=asked.operator,
             notes=asked.notes,
-            tags=list(asked.tags),
+            tag_rows=[RunTag(tag=tag) for tag in asked.tags],
             override_reason=asked.override_reason,
             software_version=VERSION,
             loop_life=life.name,
