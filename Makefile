@@ -16,7 +16,8 @@ WEB_SOURCES := $(wildcard web/*.ts web/*.js web/*.json web/index.html) \
 	$(shell find web/src web/public 2>/dev/null)
 
 # Kernels that index what the other side of the memory wrote, once more with every index checked.
-BOUNDS_CHECKED := $(addprefix tests/unit/rtcore/test_,tick.py trips.py adoption.py generator.py memory.py interlocks.py)
+BOUNDS_CHECKED := $(addprefix tests/unit/rtcore/test_,tick.py trips.py adoption.py generator.py memory.py interlocks.py \
+	stream.py sweeps_and_samples.py)
 
 .PHONY: run test check lint unit bench gen check-gen lock clean setup
 .DELETE_ON_ERROR:
