@@ -103,6 +103,8 @@ def test_segments_that_do_not_come_take_the_load_off_too(ready: Virtual) -> None
     ready.load_program(Program(Course(iter(rows)), STILL))  # no END
     records = ready.run()
     assert np.abs(np.diff(records["force_command_n"])).max() <= 335.0
+    played = records[records["mode"] == Mode.RUNNING]
+    assert (len(played), played["force_command_n"][-1]) == (7 * MAX_SEGMENTS, -250.0)
     assert ready.mode == Mode.TRIPPED
 
 
