@@ -75,6 +75,18 @@ def test_a_streamed_program_gives_the_setpoint_of_the_same_with_a_loop(ready: Vi
     assert len(streamed) > 7 * passes
 
 
+def test_nothing_of_a_new_stream_is_overwritten_before_it_starts(ready: Virtual) -> None:
+    passes = 3 * MAX_SEGMENTS
+
+    def run() -> npt.NDArray[Any]:
+        unrolled = Course(iter([*[segments(*there_and_back())] * passes, END]))
+        assert ready.load_program(Program(unrolled, STILL)) == Reply.ACCEPTED
+        ready.advance(3000)
+        return np.asarray(ready.run()["force_command_n"])
+
+    assert (run() == run()).all()
+
+
 def test_samples_that_wrap_around_their_ring_are_played_to_the_last(ready: Virtual) -> None:
     ticks = np.arange(2 * MAX_KNOTS + 4321)
     values = 300.0 * np.sin(2 * np.pi * ticks / 997.0)
