@@ -60,7 +60,7 @@ class WatchedRig(Virtual):
         parts = []
         while ticks > 0:
             first = self.tick
-            count = min(ticks, slots - first % slots)
+            count = min(ticks, self._feed(slots - first % slots))
             watch.run_ticks(self.io.addresses, first, count, self.app_beats, 0)
             parts.append(self.block.ring[first % slots : first % slots + count].copy())
             ticks -= count
