@@ -58,9 +58,13 @@ describe("takesText", () => {
 
 describe("routeOf", () => {
   it("reads addresses, and falls back to Operate", () => {
-    expect(routeOf("#/runs")).toEqual({ page: "runs" });
-    expect(routeOf("#/runs/12")).toEqual({ page: "run", id: 12 });
-    expect(routeOf("#/runs/none")).toEqual({ page: "runs" });
+    expect(routeOf("#/runs")).toEqual({ page: "runs", query: "" });
+    expect(routeOf("#/runs?search=50%20Hz&tag=a?b")).toEqual({
+      page: "runs",
+      query: "search=50%20Hz&tag=a?b",
+    });
+    expect(routeOf("#/runs/12?from=1.5")).toEqual({ page: "run", id: 12, query: "from=1.5" });
+    expect(routeOf("#/runs/none")).toEqual({ page: "runs", query: "" });
     expect(routeOf("#/tests")).toEqual({ page: "tests" });
     expect(routeOf("#/tests/a%20b")).toEqual({ page: "test", id: "a b" });
     expect(routeOf("#/tests/%")).toEqual({ page: "test", id: "%" });

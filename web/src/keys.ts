@@ -3,11 +3,14 @@
 import { COMMANDS } from "./live/operate";
 import type { Command } from "./live/types";
 
+type KeyOfView =
+  ("help" | "theme" | "operate" | "tests" | "runs") | ("acknowledge" | "pause" | "shorter" | "longer" | "stage");
+
 export type KeyAction =
   | { readonly kind: "stop" }
   | { readonly kind: "leave-field" }
   | { readonly kind: "command"; readonly command: Exclude<Command, "stop"> }
-  | { readonly kind: "help" | "acknowledge" | "pause" | "shorter" | "longer" | "operate" | "tests" | "runs" | "theme" };
+  | { readonly kind: KeyOfView };
 
 export interface KeyInfo {
   readonly key: string;
@@ -21,11 +24,23 @@ export const VIEW_KEYS: readonly KeyInfo[] = [
   { key: "f", does: "Freeze or run the charts", action: { kind: "pause" } },
   { key: "+", does: "Shorter chart window", action: { kind: "shorter" } },
   { key: "-", does: "Longer chart window", action: { kind: "longer" } },
+  { key: "v", does: "Prediction or outcome instead of charts, and back", action: { kind: "stage" } },
   { key: "1", does: "Operate", action: { kind: "operate" } },
   { key: "2", does: "Tests", action: { kind: "tests" } },
   { key: "3", does: "Runs", action: { kind: "runs" } },
   { key: "t", does: "Theme: auto, light, dark", action: { kind: "theme" } },
   { key: "?", does: "Show or hide these keys", action: { kind: "help" } },
+];
+
+/** Keys of the pages of runs, for the help, like those of the Tests page. */
+export const RUN_KEYS: readonly { readonly key: string; readonly does: string }[] = [
+  { key: "/", does: "Search the runs" },
+  { key: "↑ ↓", does: "Next or previous run; more are read at the end" },
+  { key: "Enter", does: "Open the run" },
+  { key: "e", does: "Edit tags, notes and operator" },
+  { key: "+ −", does: "Zoom in or out, in the chart of a run" },
+  { key: "← →", does: "Move along the run; with Shift: by a whole window" },
+  { key: "0", does: "The whole run" },
 ];
 
 /** Keys of the Tests page, for the help. The page itself listens: they mean nothing elsewhere. */
@@ -51,6 +66,7 @@ export const ONLY_OPERATING: ReadonlySet<KeyAction["kind"]> = new Set([
   "pause",
   "shorter",
   "longer",
+  "stage",
 ]);
 
 export interface Press {

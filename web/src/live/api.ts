@@ -1,12 +1,13 @@
 // Requests to /api/v1. Refusals are RFC 9457 problem documents; every failure becomes a `Problem` with a sentence.
 
+import type { RunEntry } from "./entry.svelte";
 import type {
+  ResumePreview,
   RigCommand,
   RigEvent,
   Run,
   RunDetail,
   RunEvents,
-  RunPage,
   RunSamples,
   TestSummary,
 } from "./types";
@@ -25,6 +26,7 @@ export class Problem extends Error {
 
 const NO_ANSWER = "The server does not answer.";
 const WAIT_MS = 15_000;
+const START_WAIT_MS = 40_000;
 
 export async function request<T>(path: string, options: RequestInit = {}): Promise<T> {
   let response: Response;
@@ -65,13 +67,14 @@ export const post = (body: unknown): RequestInit => ({
 
 export const listTests = (): Promise<TestSummary[]> => request("tests");
 
-export const startRun = (test_id: string): Promise<Run> => request("runs", post({ test_id }));
+/** Starts a run. The server may have to predict first: it is waited for longer than for other answers. */
+export const startRun = (test_id: string, more: RunEntry & { revision?: number }): Promise<Run> =>
+  request("runs", { ...post({ test_id, ...more }), signal: AbortSignal.timeout(START_WAIT_MS) });
+
+export const resumePreview = (): Promise<ResumePreview> => request("rig/resume");
 
 export const sendCommand = (command: RigCommand, options: RequestInit = {}): Promise<unknown> =>
   request("rig/commands", { ...post({ command }), ...options });
-
-export const listRuns = (before: number | null, limit = 50): Promise<RunPage> =>
-  request(`runs?limit=${limit}${before === null ? "" : `&before=${before}`}`);
 
 export const getRun = (id: number): Promise<RunDetail> => request(`runs/${id}`);
 

@@ -1,8 +1,11 @@
 // Giving commands. A refusal becomes a message; a Stop that was not delivered is said loudly.
 
 import { Problem, sendCommand, startRun } from "./api";
-import { COMMANDS, refusal } from "./operate";
+import type { TestEntry } from "./choosing";
+import { entry } from "./entry.svelte";
+import { COMMANDS, refusal, type Intent } from "./operate";
 import { messages, textOf } from "./messages.svelte";
+import { predictor } from "./prediction.svelte";
 import { rig } from "./rig.svelte";
 import { tests } from "./tests.svelte";
 import type { Command } from "./types";
@@ -15,16 +18,20 @@ const STOP_SHOWN_MS = 4000;
 class Commands {
   /** The command whose answer is awaited. */
   pending = $state<Command | null>(null);
+  /** What Start would run now, and whether it may. */
+  readonly intent: Intent = $derived({ chosen: tests.chosen, gate: predictor.gate });
 
   /** Gives a command if it can be given; otherwise says why not. */
   async give(command: Exclude<Command, "stop">): Promise<void> {
     if (this.pending !== null) return;
     const label = COMMANDS.find((info) => info.command === command)?.label ?? command;
-    const reason = refusal(command, rig.status, rig.fresh, tests.chosen);
+    const reason = refusal(command, rig.status, rig.fresh, this.intent);
     if (reason !== null) return messages.show(TOPIC, `${label} cannot be given now. ${reason}.`);
+    const overriding = command === "start" && this.intent.gate.is === "reason";
+    if (overriding && !(entry.asking && entry.hasReason)) return void (entry.asking = true);
     this.pending = command;
     try {
-      if (command === "start") await startRun(tests.chosen!.id);
+      if (command === "start") await this.start(overriding);
       else await sendCommand(command);
       messages.clear(TOPIC);
     } catch (error) {
@@ -33,6 +40,12 @@ class Commands {
     } finally {
       this.pending = null;
     }
+  }
+
+  private async start(overriding: boolean): Promise<void> {
+    const { id, revision } = tests.chosen as TestEntry;
+    await startRun(id, { ...(revision === undefined ? {} : { revision }), ...entry.body(overriding) });
+    entry.started();
   }
 }
 

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Freshness } from "./freshness";
 import { COMMANDS, guidance, nextCommand, refusal } from "./operate";
+import { OPEN, type StartGate } from "./predicting";
 import type { Command, Mode, RigStatus, TestSummary } from "./types";
 import { modeWords } from "./words";
 
@@ -15,6 +16,11 @@ const STEP: TestSummary = {
   blocks: 3,
 };
 
+const with_ = (chosen: TestSummary | null, gate: StartGate = OPEN): { chosen: TestSummary | null; gate: StartGate } => ({
+  chosen,
+  gate,
+});
+
 function status(mode: Mode, refusals: Partial<Record<Command, string>> = {}): RigStatus {
   const commands = Object.fromEntries(COMMANDS.map(({ command }) => [command, refusals[command] ?? null]));
   return { mode, commands } as unknown as RigStatus;
@@ -22,27 +28,35 @@ function status(mode: Mode, refusals: Partial<Record<Command, string>> = {}): Ri
 
 describe("refusal", () => {
   it("gives the reason of the server", () => {
-    expect(refusal("hold", status("off", { hold: "Nothing is running" }), FRESH, STEP)).toBe(
+    expect(refusal("hold", status("off", { hold: "Nothing is running" }), FRESH, with_(STEP))).toBe(
       "Nothing is running",
     );
-    expect(refusal("reset", status("tripped"), FRESH, null)).toBeNull();
+    expect(refusal("reset", status("tripped"), FRESH, with_(null))).toBeNull();
   });
 
   it("wants a test before a start", () => {
-    expect(refusal("start", status("ready"), FRESH, null)).toBe("Choose a test first");
-    expect(refusal("start", status("ready"), FRESH, STEP)).toBeNull();
-    expect(refusal("start", status("off", { start: "Not pressurised" }), FRESH, null)).toBe(
+    expect(refusal("start", status("ready"), FRESH, with_(null))).toBe("Choose a test first");
+    expect(refusal("start", status("ready"), FRESH, with_(STEP))).toBeNull();
+    expect(refusal("start", status("off", { start: "Not pressurised" }), FRESH, with_(null))).toBe(
       "Not pressurised",
     );
   });
 
+  it("does not start what the prediction refuses, and says why", () => {
+    const closed: StartGate = { is: "closed", why: "The force would pass 50 kN" };
+    expect(refusal("start", status("ready"), FRESH, with_(STEP, closed))).toBe("The force would pass 50 kN");
+    expect(refusal("hold", status("running"), FRESH, with_(STEP, closed))).toBeNull();
+    expect(nextCommand(status("ready"), FRESH, with_(STEP, closed))).toBeNull();
+    expect(guidance(status("ready"), FRESH, with_(STEP, { is: "reason", why: "Near a limit" }))).toMatch(/reason/);
+  });
+
   it("refuses everything but Stop while no data arrive", () => {
-    expect(refusal("start", status("ready"), LOST, STEP)).toBe("No link to the server");
-    expect(refusal("stop", null, LOST, null)).toBeNull();
+    expect(refusal("start", status("ready"), LOST, with_(STEP))).toBe("No link to the server");
+    expect(refusal("stop", null, LOST, with_(null))).toBeNull();
   });
 
   it("does not take a command that the server never mentioned for allowed", () => {
-    expect(refusal("shutdown", status("ready"), FRESH, STEP)).toBe("Not offered by this server");
+    expect(refusal("shutdown", status("ready"), FRESH, with_(STEP))).toBe("Not offered by this server");
   });
 });
 
@@ -57,24 +71,24 @@ describe("nextCommand", () => {
     ["stopping", null],
     ["lost", null],
   ] as const)("when %s is %s", (mode, command) => {
-    expect(nextCommand(status(mode), FRESH, STEP)).toBe(command);
+    expect(nextCommand(status(mode), FRESH, with_(STEP))).toBe(command);
   });
 
   it("is nothing where that command would be refused", () => {
-    expect(nextCommand(status("tripped", { reset: "Supply pressure still high" }), FRESH, STEP)).toBeNull();
-    expect(nextCommand(status("ready"), FRESH, null)).toBeNull();
-    expect(nextCommand(status("ready"), LOST, STEP)).toBeNull();
+    expect(nextCommand(status("tripped", { reset: "Supply pressure still high" }), FRESH, with_(STEP))).toBeNull();
+    expect(nextCommand(status("ready"), FRESH, with_(null))).toBeNull();
+    expect(nextCommand(status("ready"), LOST, with_(STEP))).toBeNull();
   });
 });
 
 describe("guidance", () => {
   it("says what to do, or why it cannot be done", () => {
-    expect(guidance(status("ready"), FRESH, STEP)).toBe("Press Start to run this test.");
-    expect(guidance(status("ready"), FRESH, null)).toBe("Choose a test first");
-    expect(guidance(status("tripped", { reset: "Supply pressure still high" }), FRESH, null)).toBe(
+    expect(guidance(status("ready"), FRESH, with_(STEP))).toBe("Press Start to run this test.");
+    expect(guidance(status("ready"), FRESH, with_(null))).toBe("Choose a test first");
+    expect(guidance(status("tripped", { reset: "Supply pressure still high" }), FRESH, with_(null))).toBe(
       "Supply pressure still high",
     );
-    expect(guidance(status("ready"), LOST, STEP)).toMatch(/Stop is always sent/);
+    expect(guidance(status("ready"), LOST, with_(STEP))).toMatch(/Stop is always sent/);
   });
 });
 

@@ -1,7 +1,8 @@
 // Which commands there are, why one cannot be given now, and which is the sensible next one. Pure.
 
 import type { Freshness } from "./freshness";
-import type { Command, Mode, RigStatus, TestSummary } from "./types";
+import type { StartGate } from "./predicting";
+import type { Command, Mode, Permissive, RigStatus, TestSummary } from "./types";
 
 export interface CommandInfo {
   readonly command: Command;
@@ -13,6 +14,7 @@ export interface CommandInfo {
 export const COMMANDS: readonly CommandInfo[] = [
   { command: "reset", label: "Reset", key: "r" },
   { command: "pressurise", label: "Pressurise", key: "p" },
+  { command: "tare", label: "Tare", key: "z" },
   { command: "start", label: "Start", key: "s" },
   { command: "hold", label: "Hold", key: "h" },
   { command: "resume", label: "Resume", key: "u" },
@@ -27,19 +29,27 @@ const NO_DATA: Record<NonNullable<Freshness["trouble"]>, string> = {
   samples: "No samples arrive",
 };
 
+/** What Start will run, and whether its prediction allows it. */
+export interface Intent {
+  readonly chosen: TestSummary | null;
+  readonly gate: StartGate;
+}
+
 /** Why a command cannot be given now; null where it can. Stop can always be given. */
 export function refusal(
   command: Command,
   status: RigStatus | null,
   fresh: Freshness,
-  chosen: TestSummary | null,
+  { chosen, gate }: Intent,
 ): string | null {
   if (command === "stop") return null;
   if (fresh.trouble !== null) return NO_DATA[fresh.trouble];
   const reason = status?.commands[command];
   if (reason === undefined) return "Not offered by this server";
   if (reason !== null) return reason;
-  return command === "start" && chosen === null ? "Choose a test first" : null;
+  if (command !== "start") return null;
+  if (chosen === null) return "Choose a test first";
+  return gate.is === "closed" ? gate.why : null;
 }
 
 const NEXT: Partial<Record<Mode, Command>> = {
@@ -53,22 +63,24 @@ const NEXT: Partial<Record<Mode, Command>> = {
 export function nextCommand(
   status: RigStatus | null,
   fresh: Freshness,
-  chosen: TestSummary | null,
+  intent: Intent,
 ): Command | null {
   const next = status === null ? undefined : NEXT[status.mode];
-  return next !== undefined && refusal(next, status, fresh, chosen) === null ? next : null;
+  return next !== undefined && refusal(next, status, fresh, intent) === null ? next : null;
 }
 
 /** One line that tells a person at the rig what to do now. */
-export function guidance(status: RigStatus | null, fresh: Freshness, chosen: TestSummary | null): string {
+export function guidance(status: RigStatus | null, fresh: Freshness, intent: Intent): string {
   if (status === null || fresh.stale) return "Commands wait until data arrive again. Stop is always sent.";
-  const next = nextCommand(status, fresh, chosen);
+  const next = nextCommand(status, fresh, intent);
+  if (next === "start" && intent.gate.is === "reason") return CAUTION;
   if (next !== null) return SENTENCES[next] ?? "";
   const wanted = NEXT[status.mode];
-  if (wanted !== undefined) return refusal(wanted, status, fresh, chosen) ?? "";
+  if (wanted !== undefined) return refusal(wanted, status, fresh, intent) ?? "";
   return WAITING[status.mode] ?? "";
 }
 
+const CAUTION = "The prediction warns. Press Start to give a reason and run all the same.";
 const SENTENCES: Partial<Record<Command, string>> = {
   reset: "Press Reset to clear the latch. Reset starts nothing.",
   pressurise: "Press Pressurise to bring up the supply.",
@@ -79,3 +91,9 @@ const WAITING: Partial<Record<Mode, string>> = {
   pressurising: "The supply pressure is rising.",
   stopping: "Stopping: the load is brought down.",
 };
+
+/** What a start still needs, in the rig's own words; nothing while no data arrive. */
+export function missing(status: RigStatus | null, fresh: Freshness): readonly Permissive[] {
+  if (status === null || fresh.trouble !== null || status.run !== null) return [];
+  return ((status as { permissives?: readonly Permissive[] }).permissives ?? []).filter(({ met }) => !met);
+}

@@ -7,14 +7,14 @@ export interface Word {
   readonly tone: "plain" | "bad" | "active";
 }
 
-const OUTCOMES: Record<string, Word> = {
+export const OUTCOMES: Record<string, Word> = {
   completed: { text: "Completed", tone: "plain" },
   stopped: { text: "Stopped", tone: "plain" },
   tripped: { text: "Tripped", tone: "bad" },
   failed: { text: "Failed", tone: "bad" },
   interrupted: { text: "Interrupted", tone: "bad" },
 };
-const VERDICTS: Record<string, Word> = {
+export const VERDICTS: Record<string, Word> = {
   pass: { text: "Pass", tone: "plain" },
   fail: { text: "Fail", tone: "bad" },
   unset: { text: "Unset", tone: "plain" },

@@ -1,0 +1,29 @@
+// What a prediction says in figures, in the order in which one asks. Pure.
+
+import { inUnit } from "../../quantities";
+import { duration, FORCE, LENGTH, PRESSURE, RATIO, SPEED, withUnit } from "../../units";
+import type { Prediction } from "../../live/types";
+
+export interface Fact {
+  readonly label: string;
+  readonly text: string;
+}
+
+export function predictionFacts({ duration_s, peaks, valve }: Prediction): readonly Fact[] {
+  return [
+    { label: "Expected duration", text: duration(duration_s) },
+    { label: "Peak force", text: withUnit(FORCE, peaks.force_n) },
+    { label: "Peak displacement", text: withUnit(LENGTH, peaks.displacement_m) },
+    { label: "Peak velocity", text: withUnit(SPEED, peaks.velocity_m_s) },
+    { label: "Largest force error", text: withUnit(FORCE, peaks.force_error_n) },
+    { label: "Supply flow", text: inUnit(peaks.supply_flow_m3_s, "m³/s") },
+    { label: "Pressure droop", text: withUnit(PRESSURE, peaks.pressure_droop_pa) },
+    { label: "Valve, at most", text: withUnit(RATIO, valve.peak) },
+    { label: "Valve saturated", text: saturation(valve) },
+  ];
+}
+
+function saturation({ saturation_share, longest_saturation_s }: Prediction["valve"]): string {
+  if (saturation_share === 0) return "never";
+  return `${withUnit(RATIO, saturation_share)}, ${(1000 * longest_saturation_s).toFixed(1)}\u00a0ms at once`;
+}
