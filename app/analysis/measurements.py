@@ -1,120 +1,185 @@
-"""The measurements that a test may be accepted by: name, unit, and a function of the evidence."""
+"""The measurements that a test may be accepted by: name, unit, and where it is read off.
+
+docs/measurements.md says what each is taken over.
+"""
 
 from collections.abc import Callable
 from typing import NamedTuple
 
-import numpy as np
-import numpy.typing as npt
-
-from app.analysis.evidence import Evidence
-from app.analysis.goodness import goodness_of_fit
-from app.analysis.step_response import StepResponse, step_response
-
-SATURATED_WITHIN = 1e-6
+from app.analysis.findings import CycleStatistics, Findings
+from app.analysis.step_response import StepResponse
 
 
 class Measurement(NamedTuple):
-    """A number read off a run. `measure` gives None where the run holds nothing to measure."""
+    """A number read off a run or a block. `read` gives None where there is nothing to measure."""
 
     name: str
     unit: str
     doc: str
-    measure: Callable[[Evidence], float | None]
+    read: Callable[[Findings], float | None]
+    grows: bool = False  # never gets less while a run goes on
 
 
-def _rms(values: npt.NDArray[np.floating]) -> float | None:
-    if len(values) == 0:
-        return None
-    return float(np.sqrt(np.mean(np.asarray(values, np.float64) ** 2)))
+def _of_cycles(read: Callable[[CycleStatistics], float]) -> Callable[[Findings], float | None]:
+    return lambda found: read(found.cycles) if found.cycles.whole else None
 
 
-def _peak(values: npt.NDArray[np.floating]) -> float | None:
-    return float(np.max(np.abs(values))) if len(values) else None
+def _of_steps(read: Callable[[StepResponse], float]) -> Callable[[Findings], float | None]:
+    return lambda found: None if found.steps.worst is None else read(found.steps.worst)
 
 
-def _goodness(evidence: Evidence) -> float | None:
-    if evidence.reference_n is None:
-        return None
-    mask = evidence.data_mask
-    return goodness_of_fit(evidence.records["force_n"][mask], evidence.reference_n[mask])
+def _cycles(found: Findings) -> float | None:
+    return float(found.cycles.count) if found.has_cycles else None
 
 
-def _saturation(evidence: Evidence) -> float:
-    limit = evidence.valve_limit - SATURATED_WITHIN
-    return float(np.mean(np.abs(evidence.records["valve_command"]) >= limit))
-
-
-def _worst_step(read: Callable[[StepResponse], float]) -> Callable[[Evidence], float | None]:
-    """The worst of all steps; NaN, which no limit passes, where one did not get that far."""
-
-    def measure(evidence: Evidence) -> float | None:
-        values = []
-        for step in evidence.windows.steps:
-            force_n = evidence.within(step.first, step.last)["force_n"]
-            if len(force_n) and step.begin_n != step.end_n:
-                response = step_response(force_n, step.begin_n, step.end_n, evidence.period_s)
-                values.append(read(response))
-        return float(np.max(values)) if values else None
-
-    return measure
+def _delay_s(found: Findings) -> float | None:
+    ticks = found.data.delay_ticks
+    return None if ticks is None else ticks * found.period_s
 
 
 _TABLE = (
     Measurement(
+        "amplitude_n",
+        "N",
+        "Amplitude of the force at the load frequency, over counted cycles of one sine",
+        lambda found: found.of_the_one_sine(lambda sine: sine.amplitude_n),
+    ),
+    Measurement(
+        "mean_n",
+        "N",
+        "Mean of the force over counted cycles of one sine",
+        lambda found: found.of_the_one_sine(lambda sine: sine.mean_n),
+    ),
+    Measurement(
+        "amplitude_error_percent",
+        "%",
+        "Amplitude above (+) or below (−) what was asked for; of several sines the farthest off",
+        lambda found: found.worst_sine(lambda sine: sine.amplitude_error_percent),
+    ),
+    Measurement(
+        "phase_deg",
+        "°",
+        "Phase of the force against the recorded setpoint, negative where it lags; of several "
+        "sines the largest",
+        lambda found: found.worst_sine(lambda sine: sine.phase_deg),
+    ),
+    Measurement(
+        "total_harmonic_distortion_percent",
+        "%",
+        "Harmonics 2 to 10 of the force, below half the loop rate, in % of the first; of several "
+        "sines the largest",
+        lambda found: found.worst_sine(lambda sine: sine.distortion_percent),
+    ),
+    Measurement("cycles", "1", "Cycles at full amplitude that are over", _cycles, grows=True),
+    Measurement(
+        "mean_peak_n",
+        "N",
+        "Mean of the highest force of each counted cycle",
+        _of_cycles(lambda cycles: cycles.peak_sum_n / cycles.whole),
+    ),
+    Measurement(
+        "mean_valley_n",
+        "N",
+        "Mean of the lowest force of each counted cycle",
+        _of_cycles(lambda cycles: cycles.valley_sum_n / cycles.whole),
+    ),
+    Measurement(
+        "highest_peak_n",
+        "N",
+        "Highest force of all counted cycles",
+        _of_cycles(lambda cycles: cycles.highest_n),
+        grows=True,
+    ),
+    Measurement(
+        "lowest_valley_n",
+        "N",
+        "Lowest force of all counted cycles",
+        _of_cycles(lambda cycles: cycles.lowest_n),
+    ),
+    Measurement(
         "force_error_rms_n",
         "N",
         "Setpoint minus load cell, over the data",
-        lambda e: _rms(e.data["force_error_n"]),
+        lambda found: found.data.error_rms_n,
     ),
     Measurement(
         "force_error_peak_n",
         "N",
         "Largest setpoint minus load cell, over the data",
-        lambda e: _peak(e.data["force_error_n"]),
+        lambda found: found.data.error_peak_n,
+        grows=True,
+    ),
+    Measurement(
+        "delay_s",
+        "s",
+        "How long the force follows behind the setpoint of holds, ramps, sweeps and time histories",
+        _delay_s,
+    ),
+    Measurement(
+        "goodness_of_fit",
+        "%",
+        "G of the paper against the prediction, over the data",
+        lambda found: found.data.goodness_percent,
     ),
     Measurement(
         "peak_force_n",
         "N",
-        "Largest force either way, over the whole run",
-        lambda e: _peak(e.records["force_n"]),
+        "Largest force either way, tapers and lead-ins included",
+        lambda found: found.whole.force_peak_n,
+        grows=True,
     ),
     Measurement(
         "peak_displacement_m",
         "m",
-        "Largest displacement either way, over the whole run",
-        lambda e: _peak(e.records["displacement_m"]),
+        "Largest displacement either way, tapers and lead-ins included",
+        lambda found: found.whole.displacement_peak_m,
+        grows=True,
+    ),
+    Measurement(
+        "peak_velocity_m_s",
+        "m/s",
+        "Largest velocity either way, tapers and lead-ins included",
+        lambda found: found.whole.velocity_peak_m_s,
+        grows=True,
     ),
     Measurement(
         "valve_saturation_share",
         "1",
-        "Share of the run in which the valve command was at its limit",
-        _saturation,
+        "Share of the time in which the valve command was at its limit",
+        lambda found: found.whole.saturation_share,
     ),
-    Measurement("goodness_of_fit", "%", "G of the paper against a reference run", _goodness),
     Measurement(
         "step_overshoot_percent",
         "%",
         "Largest overshoot of all steps, in % of the step",
-        _worst_step(lambda response: response.overshoot_percent),
+        _of_steps(lambda step: step.overshoot_percent),
+        grows=True,
     ),
     Measurement(
         "step_rise_s",
         "s",
         "Longest rise of all steps, from 10 to 90 %",
-        _worst_step(lambda response: response.rise_s),
+        _of_steps(lambda step: step.rise_s),
+        grows=True,
     ),
     Measurement(
         "step_settling_s",
         "s",
         "Longest time of all steps until the force stays within 2 %",
-        _worst_step(lambda response: response.settling_s),
+        _of_steps(lambda step: step.settling_s),
+        grows=True,
     ),
 )
 MEASUREMENTS = {measurement.name: measurement for measurement in _TABLE}
 
+Values = dict[str, float | None]
 
-def measure_all(evidence: Evidence) -> dict[str, float | None]:
-    """Every measurement of a run by name; None where there is nothing to measure."""
-    if len(evidence.records) == 0:
-        return dict.fromkeys(MEASUREMENTS)
-    return {name: measurement.measure(evidence) for name, measurement in MEASUREMENTS.items()}
+
+def read_all(found: Findings) -> Values:
+    """Every measurement by name; None where there is nothing to measure."""
+    return {name: measurement.read(found) for name, measurement in MEASUREMENTS.items()}
+
+
+def nothing() -> Values:
+    """Of a run without any data."""
+    return dict.fromkeys(MEASUREMENTS)

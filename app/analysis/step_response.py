@@ -1,12 +1,27 @@
 """Overshoot, rise and settling of a step response."""
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from rtcore.compiled import entry
+
 RISE_FROM, RISE_TO = 0.1, 0.9
 SETTLED_WITHIN = 0.02
+
+_SEEN = np.dtype(
+    [
+        ("count", "i8"),
+        ("last", "i8"),  # sample that was followed last
+        ("outside", "i8"),  # last sample outside the band, -1 for none
+        ("share", "f8"),  # of the step, at the last sample
+        ("highest", "f8"),
+        ("from_at", "f8"),  # sample at which RISE_FROM and RISE_TO were first reached; NaN: not yet
+        ("to_at", "f8"),
+    ]
+)
 
 
 class StepResponse(NamedTuple):
@@ -20,37 +35,67 @@ class StepResponse(NamedTuple):
     settling_s: float
 
 
+class StepFollower:
+    """Reads off the response to a step from `begin` to `end`, piece after piece.
+
+    All is taken against what was commanded, not against where the response ends. Raises ValueError
+    where the step has no height.
+    """
+
+    def __init__(self, begin: float, end: float, period_s: float) -> None:
+        if begin == end:
+            raise ValueError("a step needs a height and a response")
+        self._begin, self._end, self._period_s = begin, end, period_s
+        self._seen = np.zeros(1, _SEEN)
+        self._seen["from_at"] = self._seen["to_at"] = math.nan
+        self._seen["highest"], self._seen["outside"] = -math.inf, -1
+
+    def take(self, samples: npt.NDArray[np.int64], response: npt.NDArray[np.floating]) -> None:
+        """The next samples (n,), numbered from the step, and the response (n,) at them."""
+        values = np.asarray(response, np.float64)
+        _follow(self._seen, np.ascontiguousarray(samples), values, self._begin, self._end)
+
+    def read(self) -> StepResponse:
+        """What the response amounts to as far as it goes. Raises ValueError before its first sample."""
+        seen = self._seen[0]
+        if seen["count"] == 0:
+            raise ValueError("a step needs a height and a response")
+        rise = float(seen["to_at"] - seen["from_at"])
+        settled = seen["outside"] < seen["last"]
+        settling = float(seen["outside"] + 1) if settled else math.nan
+        overshoot = float(100 * np.maximum(0.0, seen["highest"] - 1))
+        return StepResponse(overshoot, rise * self._period_s, settling * self._period_s)
+
+
 def step_response(
     response: npt.NDArray[np.floating], begin: float, end: float, period_s: float
 ) -> StepResponse:
-    """Read off a response (n_samples,) to a step at sample 0 from `begin` to `end`.
-
-    All is taken against what was commanded, not against where the response ends. Raises ValueError
-    where the step has no height or the response no samples.
-    """
-    if begin == end or len(response) == 0:
-        raise ValueError("a step needs a height and a response")
-    share = (np.asarray(response, np.float64) - begin) / (end - begin)
-    rise = _first_above(share, RISE_TO) - _first_above(share, RISE_FROM)
-    return StepResponse(
-        float(100 * max(0.0, np.max(share) - 1)), float(rise * period_s), _settling(share, period_s)
-    )
+    """Read off a whole response (n_samples,) to a step at sample 0; see `StepFollower`."""
+    follower = StepFollower(begin, end, period_s)
+    follower.take(np.arange(len(response)), response)
+    return follower.read()
 
 
-def _first_above(share: npt.NDArray[np.float64], level: float) -> float:
-    """The sample, with its fraction, at which the response first reaches a level."""
-    above = np.flatnonzero(share >= level)
-    if len(above) == 0:
-        return float("nan")
-    i = int(above[0])
-    if i == 0:
-        return 0.0
-    return i - float((share[i] - level) / (share[i] - share[i - 1]))
-
-
-def _settling(share: npt.NDArray[np.float64], period_s: float) -> float:
-    outside = np.flatnonzero(~(np.abs(share - 1) <= SETTLED_WITHIN))
-    if len(outside) == 0:
-        return 0.0
-    last = int(outside[-1])
-    return float("nan") if last == len(share) - 1 else (last + 1) * period_s
+@entry
+def _follow(
+    state: npt.NDArray[np.void],
+    samples: npt.NDArray[np.int64],
+    response: npt.NDArray[np.float64],
+    begin: float,
+    end: float,
+) -> None:
+    seen = state[0]
+    for i in range(len(samples)):
+        share = (response[i] - begin) / (end - begin)
+        back = (share - seen.share) / max(1, samples[i] - seen.last)  # a sample
+        if np.isnan(seen.from_at) and share >= RISE_FROM:
+            seen.from_at = samples[i] - (share - RISE_FROM) / back if seen.count else samples[i]
+        if np.isnan(seen.to_at) and share >= RISE_TO:
+            seen.to_at = samples[i] - (share - RISE_TO) / back if seen.count else samples[i]
+        if not (share <= seen.highest) and not np.isnan(seen.highest):
+            seen.highest = share
+        if not abs(share - 1.0) <= SETTLED_WITHIN:
+            seen.outside = samples[i]
+        seen.share = share
+        seen.last = samples[i]
+        seen.count += 1
