@@ -9,6 +9,7 @@ from fastapi.requests import HTTPConnection
 from app.histories.store import Store
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
+from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.runs.starting import Starter
 from app.wiring import Console
@@ -42,6 +43,10 @@ def _runs(this: ThisConsole) -> Runs:
     return this.runs
 
 
+def _run_windows(this: ThisConsole) -> RunWindows:
+    return this.run_windows
+
+
 def _starter(this: ThisConsole) -> Starter:
     return this.starter
 
@@ -51,4 +56,5 @@ Status = Annotated[StatusReader, Depends(_status)]
 RigService = Annotated[Rig, Depends(_rig)]
 CommandThreads = Annotated[Executor, Depends(_command_threads)]
 RunsService = Annotated[Runs, Depends(_runs)]
+RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
 StarterService = Annotated[Starter, Depends(_starter)]

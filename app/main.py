@@ -23,6 +23,7 @@ from app.presets import Presets, load_presets
 from app.problems import install_handlers
 from app.rigs.router import router as rig_router
 from app.runs.router import router as runs_router
+from app.runs.samples_router import router as samples_router
 from app.security import Guard, known_hosts
 from app.serving import CannotServe, bind, check, hold_data_folder, url_of
 from app.settings import VERSION, Settings
@@ -64,6 +65,7 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         tests_router,
         histories_router,
         runs_router,
+        samples_router,
         live_router,
     ):
         app.include_router(router)

@@ -19,6 +19,7 @@ from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.runs.ledger import Ledger
 from app.runs.plans import Plans
+from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.runs.starting import Frozen, Starter
 from app.settings import Settings
@@ -48,6 +49,7 @@ class Console:
         self.status = StatusReader(self.link, self.recorder, plans, presets.rig.supply.high_pa)
         self.rig = Rig(self.link, lambda: self.status.read().commands)
         self.runs = Runs(self.database, settings.runs_dir)
+        self.run_windows = RunWindows(self.database, settings.runs_dir)
         self.starter = Starter(
             self.database,
             self.link,

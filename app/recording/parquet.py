@@ -1,9 +1,7 @@
 """The file of a run that is over: Parquet, in place in one step or not at all."""
 
 import json
-import os
-import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,44 +9,52 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from app.recording.columns import SCHEMA
+from app.recording.whole_file import whole_file
 
 METADATA_KEY = b"forcerig"
 ROW_GROUP = 65_536
+# Measured in docs/decisions/0011: 28 bytes a tick instead of 46, in a third of the time.
+_PACKED = ("tick", "cycle", "deadlines_missed")
+_REPEATED = ("trips", "run", "block", "mode")
+_ENCODING = {
+    "compression": "zstd",
+    "compression_level": 1,
+    "use_dictionary": list(_REPEATED),
+    "column_encoding": {
+        f.name: "DELTA_BINARY_PACKED" if f.name in _PACKED else "BYTE_STREAM_SPLIT"
+        for f in SCHEMA
+        if f.name not in _REPEATED
+    },
+}
 
 
-def write_run(path: Path, batches: Iterable[Any], metadata: Mapping[str, Any]) -> None:
+def write_run(
+    path: Path,
+    batches: Iterable[Any],
+    metadata: Mapping[str, Any] | Callable[[], Mapping[str, Any]],
+) -> None:
     """Write record batches of `SCHEMA`, in order, as one Parquet file at `path`.
 
-    `metadata` is kept in the file as JSON: what the run was, and with which settings. The file
-    appears under its name when it is whole and on the disk. Raises `OSError`.
+    `metadata` is kept in the file as JSON: what the run was, and with which settings; a function is
+    asked for it after the last batch. The file appears under its name when it is whole and on the
+    disk. Raises `OSError`.
     """
-    described = {METADATA_KEY: json.dumps(metadata, allow_nan=False, sort_keys=True).encode()}
-    schema = SCHEMA.with_metadata(described)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            with pq.ParquetWriter(file, schema, compression="zstd") as writer:
-                for table in _row_groups(batches):
-                    writer.write_table(table.replace_schema_metadata(described), ROW_GROUP)
-            file.flush()
-            os.fchmod(file.fileno(), 0o644)
-            os.fsync(file.fileno())
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
-    _sync_folder(path.parent)
+    with whole_file(path) as file, pq.ParquetWriter(file, SCHEMA, **_ENCODING) as writer:
+        for table in row_groups(batches):
+            writer.write_table(table, ROW_GROUP)
+        described = metadata() if callable(metadata) else metadata
+        text = json.dumps(described, allow_nan=False, sort_keys=True)
+        writer.add_key_value_metadata({METADATA_KEY: text.encode()})
 
 
 def read_metadata(path: Path) -> dict[str, Any]:
     """What `write_run` was told of the run."""
-    described: dict[str, Any] = json.loads(pq.read_schema(path).metadata[METADATA_KEY])
+    described: dict[str, Any] = json.loads(pq.read_metadata(path).metadata[METADATA_KEY])
     return described
 
 
-def _row_groups(batches: Iterable[Any]) -> Iterator[Any]:
-    """The batches as tables of `ROW_GROUP` rows; the last one has what remains."""
+def row_groups(batches: Iterable[Any]) -> Iterator[Any]:
+    """The batches as tables of `ROW_GROUP` rows in one piece; the last one has what remains."""
     waiting: list[Any] = []
     rows = 0
     for batch in batches:
@@ -56,17 +62,8 @@ def _row_groups(batches: Iterable[Any]) -> Iterator[Any]:
         rows += batch.num_rows
         while rows >= ROW_GROUP:
             table = pa.Table.from_batches(waiting, SCHEMA)
-            yield table.slice(0, ROW_GROUP)
+            yield table.slice(0, ROW_GROUP).combine_chunks()
             waiting = table.slice(ROW_GROUP).to_batches()
             rows -= ROW_GROUP
     if rows:
-        yield pa.Table.from_batches(waiting, SCHEMA)
-
-
-def _sync_folder(folder: Path) -> None:
-    """Bring a new name to the disk itself."""
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
+        yield pa.Table.from_batches(waiting, SCHEMA).combine_chunks()

@@ -3,9 +3,9 @@
 from pathlib import Path
 
 from app.recording.clerk import Clerk
+from app.recording.extent import extent_of
 from app.recording.files import parquet_path, remove_parts
 from app.recording.outcome import LOOP_ENDED, NEVER_BEGAN
-from app.recording.parts import extent_of
 from app.recording.run_file import Recorded
 
 

@@ -9,8 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from app.link.events import LoopEvent
+from app.recording.extent import Extent, extent_of
+from app.recording.live_overview import LiveOverview
 from app.recording.outcome import last_tick_by_events
-from app.recording.parts import Extent, PartWriter, extent_of
+from app.recording.parts import PartWriter
 
 
 class Recorded(NamedTuple):
@@ -34,6 +36,7 @@ class RunFile:
     missing_ticks: int = 0  # so far
     events: list[LoopEvent] = field(default_factory=list)
     _part: PartWriter | None = None
+    _overview: LiveOverview | None = None
 
     @staticmethod
     def open(run_id: int, runs_dir: Path, began_at: int) -> "RunFile":
@@ -66,11 +69,17 @@ class RunFile:
         if self._part is None:
             self._part = PartWriter(self.folder)
         self._part.append(fresh)
+        self._see(fresh)
         missing = int(fresh["tick"][0]) - self.next_tick
         gap = _gap(self.next_tick, missing, float(fresh["time_s"][0])) if missing else None
         self.missing_ticks += missing
         self.extent = self.extent.grown_by(fresh["tick"])
         return gap
+
+    def _see(self, records: npt.NDArray[Any]) -> None:
+        if self._overview is None:
+            self._overview = LiveOverview(self.folder)
+        self._overview.add(records)
 
     def owns(self, event: LoopEvent) -> bool:
         """Whether an event is of this run, the tick in which the loop left it included."""

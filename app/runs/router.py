@@ -7,12 +7,10 @@ from fastapi.responses import FileResponse
 
 from app.dependencies import RunsService, StarterService
 from app.problems import PROBLEMS, granted
-from app.runs.schemas import RunDetail, RunEvents, RunPage, RunSamples, RunStart, RunSummary
+from app.runs.schemas import RunDetail, RunEvents, RunPage, RunStart, RunSummary
 
 router = APIRouter(prefix="/api/v1/runs", tags=["runs"], responses=PROBLEMS)
 RunId = Annotated[int, Path(ge=1, le=2**53)]
-Seconds = Annotated[float, Query(ge=0, le=1e9, allow_inf_nan=False)]
-MOST_POINTS = 20_000
 
 
 @router.post("", status_code=201, operation_id="startRun")
@@ -41,20 +39,6 @@ def get_run(run_id: RunId, runs: RunsService) -> RunDetail:
 def list_run_events(run_id: RunId, runs: RunsService) -> RunEvents:
     """What the loop reported during the run, in order."""
     return granted(runs.events(run_id))
-
-
-@router.get("/{run_id}/samples", operation_id="getRunSamples")
-def get_run_samples(
-    run_id: RunId,
-    runs: RunsService,
-    channels: Annotated[str, Query(max_length=2000, description="names, with commas between")],
-    from_s: Seconds = 0.0,
-    to_s: Annotated[float | None, Query(ge=0, le=1e9, allow_inf_nan=False)] = None,
-    points: Annotated[int, Query(ge=1, le=MOST_POINTS)] = 2000,
-) -> RunSamples:
-    """Least and greatest value in each of at most `points` stretches: every sample counts."""
-    names = [name.strip() for name in channels.split(",") if name.strip()]
-    return granted(runs.samples(run_id, names, from_s, to_s, points))
 
 
 @router.get("/{run_id}/data.parquet", operation_id="getRunParquet", response_class=FileResponse)

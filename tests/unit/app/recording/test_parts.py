@@ -9,7 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.recording.columns import as_records
-from app.recording.parts import PartWriter, extent_of, part_paths, read_part, read_parts
+from app.recording.extent import extent_of
+from app.recording.parts import PartWriter, part_paths, read_part, read_parts
 from rtcore.channels import TELEMETRY
 
 BATCH = 50
