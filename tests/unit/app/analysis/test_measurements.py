@@ -10,6 +10,7 @@ from app.analysis.evidence import Kind
 from app.analysis.goodness import goodness_of_fit
 from app.analysis.measurements import MEASUREMENTS
 from app.analysis.predicted import Predicted
+from app.analysis.walk import Columns
 from rtcore.modes import Mode
 from tests.unit.app.analysis.made_up import PERIOD_S, cycles, measure, run_of, step, stretch
 
@@ -79,7 +80,7 @@ def test_goodness_needs_a_prediction_and_compares_the_counted_cycles() -> None:
     program = [stretch(Kind.LEAD, 0, 400), cycles(400, 1600), stretch(Kind.LEAD, 1600, 2000)]
     run = run_of(2000, force_n=force_n)
     assert measure(run, program).run["goodness_of_fit"] is None
-    halves = [
+    halves: list[Columns] = [
         {"program_tick": np.arange(begin, end), "force_n": predicted_n[begin:end]}
         for begin, end in ((0, 700), (700, 1500))
     ]
