@@ -120,9 +120,10 @@ class PartWriter:
 
 
 def read_part(path: Path, *, verify: bool = True, offset: int = 0) -> Iterator[Any]:
-    """The whole record batches of a part, mapped, not read; ends where the part does or is torn.
+    """The whole record batches of a part; ends where the part does or is torn.
 
-    Without `verify` only what is torn is noticed, not what is wrong: quick, as for a chart.
+    Without `verify` they are mapped, and only what is torn is noticed, not what is wrong: quick, as
+    for a chart.
     `offset` is where a batch begins, as the part's index has it.
     """
     batches = _verified(path, offset) if verify else _as_they_are(path, offset)
@@ -145,23 +146,24 @@ def _as_they_are(path: Path, offset: int) -> Iterator[Any]:  # raises where the 
 
 
 def _verified(path: Path, offset: int) -> Iterator[Any]:
-    source = pa.memory_map(str(path))
-    if offset:  # only a stream hands out checksums: make one of the schema and what is asked for
-        pa.ipc.read_message(source)
-        head = source.tell()
-        source.seek(0)
-        schema = source.read(head)
-        source.seek(max(offset, head))
-        source = pa.BufferReader(schema + source.read())
-    stream = pa.ipc.open_stream(source)
-    while stream.schema.equals(SCHEMA):
-        try:
-            batch, metadata = stream.read_next_batch_with_custom_metadata()
-        except StopIteration:
-            return
-        if metadata is None or metadata.get(_CHECKSUM) != _checksum(batch):
-            return
-        yield batch
+    with pa.OSFile(str(path)) as file:  # read, not mapped: a day of it must not fill the memory
+        source: Any = file
+        if offset:  # only a stream hands out checksums: make one of the schema and what is asked for
+            pa.ipc.read_message(file)
+            head = file.tell()
+            file.seek(0)
+            schema = file.read(head)
+            file.seek(max(offset, head))
+            source = pa.BufferReader(schema + file.read())
+        stream = pa.ipc.open_stream(source)
+        while stream.schema.equals(SCHEMA):
+            try:
+                batch, metadata = stream.read_next_batch_with_custom_metadata()
+            except StopIteration:
+                return
+            if metadata is None or metadata.get(_CHECKSUM) != _checksum(batch):
+                return
+            yield batch
 
 
 def read_parts(folder: Path, *, verify: bool = True, from_tick: int = BEGINNING) -> Iterator[Any]:
