@@ -19,12 +19,14 @@ from sqlalchemy import (
     Dialect,
     Engine,
     Integer,
+    String,
     TypeDecorator,
     create_engine,
     event,
 )
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import DeclarativeBase, Session
+from sqlalchemy.types import TypeEngine
 
 from app.settings import Settings
 
@@ -39,6 +41,11 @@ _PRAGMAS = (
 
 # Ticks outgrow 32 bits in six days. SQLite has integers of one kind, and numbers only INTEGER keys.
 BigInt = BigInteger().with_variant(Integer(), "sqlite")
+
+
+def key_text(length: int) -> TypeEngine[str]:
+    """Text that is put in order by its characters' numbers, in whatever language a server sorts."""
+    return String(length).with_variant(String(length, collation="C"), "postgresql")
 
 
 class Base(DeclarativeBase):

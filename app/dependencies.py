@@ -7,6 +7,8 @@ from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
 from app.histories.store import Store
+from app.catalogue.exchange import Library
+from app.catalogue.service import Catalogue
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.runs.samples import RunWindows
@@ -39,6 +41,14 @@ def _command_threads(this: ThisConsole) -> Executor:
     return this.command_threads
 
 
+def _catalogue(this: ThisConsole) -> Catalogue:
+    return this.catalogue
+
+
+def _library(this: ThisConsole) -> Library:
+    return this.library
+
+
 def _runs(this: ThisConsole) -> Runs:
     return this.runs
 
@@ -55,6 +65,8 @@ HistoryStore = Annotated[Store, Depends(_histories)]
 Status = Annotated[StatusReader, Depends(_status)]
 RigService = Annotated[Rig, Depends(_rig)]
 CommandThreads = Annotated[Executor, Depends(_command_threads)]
+CatalogueService = Annotated[Catalogue, Depends(_catalogue)]
+LibraryService = Annotated[Library, Depends(_library)]
 RunsService = Annotated[Runs, Depends(_runs)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
 StarterService = Annotated[Starter, Depends(_starter)]

@@ -3,6 +3,7 @@
 They know no HTTP; `app.problems` maps each code to a status.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
@@ -15,7 +16,13 @@ class Code(StrEnum):
     METHOD_NOT_ALLOWED = "method_not_allowed"
     FOREIGN_ORIGIN = "foreign_origin"
     UNKNOWN_HOST = "unknown_host"
+    TOO_LARGE = "too_large"
     UNKNOWN_TEST = "unknown_test"
+    UNKNOWN_REVISION = "unknown_revision"
+    TEST_EXISTS = "test_exists"
+    TEST_ARCHIVED = "test_archived"
+    REVISION_NEEDED = "revision_needed"
+    EDIT_CONFLICT = "edit_conflict"
     INVALID_HISTORY = "invalid_history"
     HISTORY_EXISTS = "history_exists"
     UNKNOWN_RUN = "unknown_run"
@@ -49,8 +56,12 @@ class Fault:
 
 @dataclass(frozen=True)
 class Refusal:
-    """Why something was not done. Returned, never raised, by services."""
+    """Why something was not done. Returned, never raised, by services.
+
+    `about` holds what a program needs besides the sentence (`current_revision` …), as JSON.
+    """
 
     code: Code
     detail: str
     faults: tuple[Fault, ...] = field(default=())
+    about: Mapping[str, object] = field(default_factory=dict)

@@ -13,7 +13,9 @@ from anyio.to_thread import run_sync
 from fastapi import FastAPI
 from fastapi.responses import HTMLResponse
 
+from app.body_limit import BodyLimit
 from app.catalogue.router import router as tests_router
+from app.catalogue.texts_router import router as texts_router
 from app.docs_page import docs_page
 from app.errors import Refusal
 from app.health import router as health_router
@@ -31,6 +33,10 @@ from app.static_files import serve_console
 from app.wiring import Console
 
 _LONGEST_FRAME = 16_384  # of a browser's WebSocket message
+_BODY_LIMITS = {
+    "/api/v1/tests/import": 100_000_000,
+    "/api/v1/histories": None,  # goes to the disk as it comes
+}
 
 
 def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
@@ -57,11 +63,13 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
+    app.add_middleware(BodyLimit, limits=_BODY_LIMITS)
     app.add_middleware(Guard, hosts=known_hosts(settings.allowed_hosts))
     install_handlers(app)
     for router in (
         health_router,
         rig_router,
+        texts_router,
         tests_router,
         histories_router,
         runs_router,

@@ -8,7 +8,7 @@ from fastapi import FastAPI, Request
 from fastapi.encoders import jsonable_encoder
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
-from pydantic import BaseModel
+from pydantic import BaseModel, ConfigDict
 from sqlalchemy.exc import OperationalError
 from starlette.exceptions import HTTPException
 
@@ -24,7 +24,13 @@ STATUS: Mapping[Code, int] = {
     Code.METHOD_NOT_ALLOWED: 405,
     Code.FOREIGN_ORIGIN: 403,
     Code.UNKNOWN_HOST: 403,
+    Code.TOO_LARGE: 413,
     Code.UNKNOWN_TEST: 404,
+    Code.UNKNOWN_REVISION: 404,
+    Code.TEST_EXISTS: 409,
+    Code.TEST_ARCHIVED: 409,
+    Code.REVISION_NEEDED: 428,
+    Code.EDIT_CONFLICT: 409,
     Code.INVALID_HISTORY: 422,
     Code.HISTORY_EXISTS: 409,
     Code.UNKNOWN_RUN: 404,
@@ -49,15 +55,26 @@ STATUS: Mapping[Code, int] = {
 
 
 class FaultOut(BaseModel):
-    """One thing that is wrong in what was sent."""
+    """One thing that is wrong in what was sent; what is not known of it is null."""
 
     path: str
     value: Any = None
     expected: str
+    limit: float | None = None
+    unit: str | None = None
+    line: int | None = None
+
+    @staticmethod
+    def of(fault: Fault) -> "FaultOut":
+        """Faults of documents know limit, unit and line; others do not."""
+        known = {name: getattr(fault, name, None) for name in ("limit", "unit", "line")}
+        return FaultOut(path=fault.path, value=fault.value, expected=fault.expected, **known)
 
 
 class Problem(BaseModel):
-    """A problem document."""
+    """A problem document; some codes bring members of their own (`current_revision` …)."""
+
+    model_config = ConfigDict(extra="allow")
 
     type: str = "about:blank"
     title: str
@@ -94,12 +111,14 @@ def title(code: Code) -> str:
 
 def problem(refusal: Refusal, status: int | None = None) -> JSONResponse:
     """A refusal as a response."""
+    more: dict[str, Any] = dict(refusal.about)
     body = Problem(
         title=title(refusal.code),
         status=status or STATUS[refusal.code],
         code=refusal.code,
         detail=refusal.detail,
-        errors=[FaultOut(path=f.path, value=f.value, expected=f.expected) for f in refusal.faults],
+        errors=[FaultOut.of(fault) for fault in refusal.faults],
+        **more,
     )
     return JSONResponse(jsonable_encoder(body), body.status, media_type=MEDIA_TYPE)
 

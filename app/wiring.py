@@ -3,6 +3,10 @@
 import logging
 from concurrent.futures import ThreadPoolExecutor
 
+from app.catalogue.exchange import Library
+from app.catalogue.service import Catalogue
+from app.catalogue.shipped import enter_shipped
+from app.catalogue.written import Reader
 from app.controller.record import to_record as gains_record
 from app.db import Database
 from app.histories.store import Store
@@ -48,6 +52,9 @@ class Console:
         self._plans = plans = Plans()
         self.status = StatusReader(self.link, self.recorder, plans, presets.rig.supply.high_pa)
         self.rig = Rig(self.link, lambda: self.status.read().commands)
+        reader = Reader(self.histories)
+        self.catalogue = Catalogue(self.database, reader)
+        self.library = Library(self.database, reader)
         self.runs = Runs(self.database, settings.runs_dir)
         self.run_windows = RunWindows(self.database, settings.runs_dir)
         self.starter = Starter(
@@ -73,6 +80,7 @@ class Console:
         """
         self.settings.runs_dir.mkdir(parents=True, exist_ok=True)
         self.database.upgrade()
+        enter_shipped(self.database, self.catalogue.reader)
         self._plans.recall(self.database)
         self.link.start()
         life = self.link.life

@@ -1,1 +1,1 @@
-"""The tests that can be run: for now those that ship with forcerig."""
+"""The tests: saved as revisions, found, compared, taken in and out as files."""

@@ -6,7 +6,7 @@ from typing import Any
 from sqlalchemy import JSON, Double, ForeignKey, Index, String, Text
 from sqlalchemy.orm import Mapped, mapped_column
 
-from app.db import Base, UtcDateTime
+from app.db import Base, UtcDateTime, key_text
 
 
 class Test(Base):
@@ -15,7 +15,7 @@ class Test(Base):
     __test__ = False  # pytest would take it for a test of ours
     __tablename__ = "tests"
 
-    id: Mapped[str] = mapped_column(String(100), primary_key=True)
+    id: Mapped[str] = mapped_column(key_text(100), primary_key=True)
     name: Mapped[str] = mapped_column(String(200))
     description: Mapped[str] = mapped_column(Text)
     revision: Mapped[int]  # the newest
@@ -32,9 +32,9 @@ class TestTag(Base):
     __table_args__ = (Index("test_tags_by_tag", "tag", "test_id"),)
 
     test_id: Mapped[str] = mapped_column(
-        String(100), ForeignKey("tests.id", ondelete="CASCADE"), primary_key=True
+        key_text(100), ForeignKey("tests.id", ondelete="CASCADE"), primary_key=True
     )
-    tag: Mapped[str] = mapped_column(String(50), primary_key=True)
+    tag: Mapped[str] = mapped_column(key_text(50), primary_key=True)
 
 
 class TestRevision(Base):
@@ -47,7 +47,7 @@ class TestRevision(Base):
     __tablename__ = "test_revisions"
 
     test_id: Mapped[str] = mapped_column(
-        String(100), ForeignKey("tests.id", ondelete="CASCADE"), primary_key=True
+        key_text(100), ForeignKey("tests.id", ondelete="CASCADE"), primary_key=True
     )
     number: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
     definition: Mapped[dict[str, Any]] = mapped_column(JSON, deferred=True)

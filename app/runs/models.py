@@ -7,7 +7,7 @@ from sqlalchemy import JSON, Connection, Double, ForeignKey, Index, String, Text
 from sqlalchemy.ext.associationproxy import AssociationProxy, association_proxy
 from sqlalchemy.orm import Mapped, Mapper, mapped_column, relationship
 
-from app.db import Base, BigInt, UtcDateTime
+from app.db import Base, BigInt, UtcDateTime, key_text
 from app.runs.words import facet, words_of
 
 
@@ -30,7 +30,7 @@ class RunTag(Base):
     run_id: Mapped[int] = mapped_column(
         BigInt, ForeignKey("runs.id", ondelete="CASCADE"), primary_key=True
     )
-    tag: Mapped[str] = mapped_column(String(50), primary_key=True)
+    tag: Mapped[str] = mapped_column(key_text(50), primary_key=True)
 
 
 def _frozen() -> Mapped[int]:
@@ -54,6 +54,7 @@ class Run(Base):
         Index("runs_of_test", "test_id", "started_at"),
         Index("runs_started", "started_at"),
         Index("runs_operator", "operator"),
+        Index("runs_samples_removed", "samples_removed_at"),
         {"sqlite_autoincrement": True},
     )
 
@@ -83,9 +84,10 @@ class Run(Base):
     outcome: Mapped[str | None] = mapped_column(String(20))  # None while it is under way
     verdict: Mapped[str] = mapped_column(String(10), default="unset")
     reason: Mapped[str | None] = mapped_column(String(500))
-    operator: Mapped[str] = mapped_column(String(100), default="")
+    operator: Mapped[str] = mapped_column(key_text(100), default="")
     notes: Mapped[str] = mapped_column(Text, default="")
     annotation: Mapped[int] = mapped_column(default=0)
+    samples_removed_at: Mapped[datetime | None] = mapped_column(UtcDateTime)  # by retention
     words: Mapped[str] = mapped_column(Text, default="", deferred=True)  # what it is found by
 
     definition_document: Mapped[Document] = _document("definition_id")

@@ -15,6 +15,12 @@ down_revision = "0001"
 branch_labels = None
 depends_on = None
 
+
+def _key_text(length: int) -> Any:
+    """Text in the order of its characters' numbers, in whatever language the server sorts."""
+    return sa.String(length).with_variant(sa.String(length, collation="C"), "postgresql")
+
+
 BIG = sa.BigInteger().with_variant(sa.Integer(), "sqlite")
 FROZEN = ("definition", "plan", "controller", "interlocks", "rig", "conditions")
 FACETS = ("test_id", "outcome", "verdict")
@@ -41,7 +47,7 @@ NEW: dict[str, tuple[Any, str | None]] = {  # type, and what the rows have that 
     "prediction_verdict": (sa.String(10), None),
     "override_reason": (sa.String(500), None),
     "duration_s": (sa.Double, None),
-    "operator": (sa.String(100), ""),
+    "operator": (_key_text(100), ""),
     "notes": (sa.Text, ""),
     "annotation": (sa.Integer, "0"),
     "words": (sa.Text, ""),
@@ -108,7 +114,7 @@ def _make_tables() -> None:
     op.create_table(
         "run_tags",
         _of("runs.id", "run_id", BIG),
-        sa.Column("tag", sa.String(50), primary_key=True),
+        sa.Column("tag", _key_text(50), primary_key=True),
     )
     op.create_index("run_tags_by_tag", "run_tags", ["tag", "run_id"])
     op.create_table(
@@ -133,7 +139,7 @@ def _make_tables() -> None:
 def _make_tests() -> None:
     op.create_table(
         "tests",
-        sa.Column("id", sa.String(100), primary_key=True),
+        sa.Column("id", _key_text(100), primary_key=True),
         sa.Column("name", sa.String(200), nullable=False),
         sa.Column("description", sa.Text, nullable=False),
         sa.Column("revision", sa.Integer, nullable=False),
@@ -143,13 +149,13 @@ def _make_tests() -> None:
     )
     op.create_table(
         "test_tags",
-        _of("tests.id", "test_id", sa.String(100)),
-        sa.Column("tag", sa.String(50), primary_key=True),
+        _of("tests.id", "test_id", _key_text(100)),
+        sa.Column("tag", _key_text(50), primary_key=True),
     )
     op.create_index("test_tags_by_tag", "test_tags", ["tag", "test_id"])
     op.create_table(
         "test_revisions",
-        _of("tests.id", "test_id", sa.String(100)),
+        _of("tests.id", "test_id", _key_text(100)),
         sa.Column("number", sa.Integer, primary_key=True, autoincrement=False),
         sa.Column("definition", sa.JSON, nullable=False),
         sa.Column("yaml", sa.Text, nullable=False),

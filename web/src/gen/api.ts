@@ -24,6 +24,33 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/histories": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Histories
+         * @description The time histories in the store.
+         */
+        get: operations["listHistories"];
+        put?: never;
+        /**
+         * Add History
+         * @description Keep a CSV file, sent as the body, as a time history. A name stands for its content for ever.
+         *
+         *     `column` chooses by heading or number where there are several; `rate_hz` is needed where the file
+         *     has no times, and resamples where it has.
+         */
+        post: operations["addHistory"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rig": {
         parameters: {
             query?: never;
@@ -179,9 +206,73 @@ export interface paths {
         };
         /**
          * List Tests
-         * @description The tests that can be run.
+         * @description The tests, by their ids; `after` is the last id of the page before.
          */
         get: operations["listTests"];
+        put?: never;
+        /**
+         * Create Test
+         * @description Save a new test.
+         */
+        post: operations["createTest"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/check": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check Test
+         * @description Check a test and turn it from data into YAML or back; nothing is saved.
+         */
+        post: operations["checkTest"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/import": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Import Tests
+         * @description Enter the tests of a library file, of one YAML, or of several files: all of them or none.
+         */
+        post: operations["importTests"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/library.zip": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Export Tests
+         * @description A zip of these tests, or of all that are not archived: a YAML each, and an index with tags.
+         */
+        get: operations["exportTests"];
         put?: never;
         post?: never;
         delete?: never;
@@ -199,10 +290,198 @@ export interface paths {
         };
         /**
          * Get Test
-         * @description A test with its definition and what it comes to.
+         * @description A test with its definition and what it comes to; the ETag is its revision.
          */
         get: operations["getTest"];
+        /**
+         * Save Test
+         * @description Save a new revision, on top of the one that it was made from and no other.
+         */
+        put: operations["saveTest"];
+        post?: never;
+        /**
+         * Archive Test
+         * @description Put a test aside: it can be restored, and its runs keep what they were made with.
+         */
+        delete: operations["archiveTest"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/clone": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
         put?: never;
+        /**
+         * Clone Test
+         * @description A copy of the newest revision under another name.
+         */
+        post: operations["cloneTest"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/definition.json": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Json
+         * @description The test as plain data, as a file.
+         */
+        get: operations["getJson"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/definition.yaml": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Yaml
+         * @description The test as it was written, as a file.
+         */
+        get: operations["getYaml"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/difference": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Difference
+         * @description What two revisions differ in.
+         */
+        get: operations["getDifference"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Test
+         * @description Take a test back that was put aside.
+         */
+        post: operations["restoreTest"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/revisions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Revisions
+         * @description The revisions, the newest first.
+         */
+        get: operations["listRevisions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/revisions/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Revision
+         * @description The test as it was in a revision.
+         */
+        get: operations["getRevision"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/revisions/{number}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Revision
+         * @description Save an old revision again, as the newest one.
+         */
+        post: operations["restoreRevision"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Tag Test
+         * @description Give a test these tags and no others.
+         */
+        put: operations["tagTest"];
         post?: never;
         delete?: never;
         options?: never;
@@ -265,6 +544,23 @@ export interface components {
             start_s: number;
         };
         /**
+         * Change
+         * @description A key of the definition that two revisions differ in.
+         */
+        Change: {
+            /** After */
+            after?: unknown;
+            /** Before */
+            before?: unknown;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "added" | "removed" | "changed";
+            /** Path */
+            path: string;
+        };
+        /**
          * ChannelOut
          * @description A channel of the telemetry; `dtype` as NumPy writes it.
          */
@@ -283,7 +579,7 @@ export interface components {
          * @description Every reason to refuse. Programs match on these; sentences may change.
          * @enum {string}
          */
-        Code: "invalid_request" | "not_found" | "method_not_allowed" | "foreign_origin" | "unknown_host" | "unknown_test" | "unknown_run" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "no_program" | "busy" | "database_unavailable" | "internal";
+        Code: "invalid_request" | "not_found" | "method_not_allowed" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "no_program" | "busy" | "database_unavailable" | "internal";
         /**
          * CommandDone
          * @description The loop has taken the command in this tick.
@@ -337,6 +633,20 @@ export interface components {
             reason: string;
         };
         /**
+         * Difference
+         * @description What two revisions differ in; `text` is the unified difference of their YAML.
+         */
+        Difference: {
+            /** Changes */
+            changes: components["schemas"]["Change"][];
+            /** From */
+            from: number;
+            /** Text */
+            text: string;
+            /** To */
+            to: number;
+        };
+        /**
          * ErrorFrame
          * @description A frame of the browser's could not be understood.
          */
@@ -383,13 +693,19 @@ export interface components {
         };
         /**
          * FaultOut
-         * @description One thing that is wrong in what was sent.
+         * @description One thing that is wrong in what was sent; what is not known of it is null.
          */
         FaultOut: {
             /** Expected */
             expected: string;
+            /** Limit */
+            limit?: number | null;
+            /** Line */
+            line?: number | null;
             /** Path */
             path: string;
+            /** Unit */
+            unit?: string | null;
             /** Value */
             value?: unknown;
         };
@@ -568,6 +884,57 @@ export interface components {
             version: string;
         };
         /**
+         * HistoryInfo
+         * @description A time history in the store. `unit` is N or m where the file's heading says so.
+         */
+        HistoryInfo: {
+            /** Bandwidth Hz */
+            bandwidth_hz: number;
+            /** Column */
+            column: string;
+            /** Duration S */
+            duration_s: number;
+            /** File */
+            file: string;
+            /** Max */
+            max: number;
+            /** Min */
+            min: number;
+            /** Rate Hz */
+            rate_hz: number;
+            /** Resampled */
+            resampled: boolean;
+            /** Samples */
+            samples: number;
+            /** Sha256 */
+            sha256: string;
+            /** Unit */
+            unit: string | null;
+        };
+        /**
+         * Imported
+         * @description What became of the files, in their order.
+         */
+        Imported: {
+            /** Imported */
+            imported: components["schemas"]["ImportedTest"][];
+        };
+        /**
+         * ImportedTest
+         * @description What became of a file.
+         */
+        ImportedTest: {
+            /**
+             * Action
+             * @enum {string}
+             */
+            action: "created" | "revised" | "unchanged";
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+        };
+        /**
          * Limits
          * @description What the detectors in force allow; the supply's is what the pump gives. Null for no limit.
          */
@@ -673,7 +1040,7 @@ export interface components {
         };
         /**
          * Problem
-         * @description A problem document.
+         * @description A problem document; some codes bring members of their own (`current_revision` …).
          */
         Problem: {
             code: components["schemas"]["Code"];
@@ -693,6 +1060,26 @@ export interface components {
              * @default about:blank
              */
             type: string;
+        } & {
+            [key: string]: unknown;
+        };
+        /**
+         * ProblemOut
+         * @description One thing wrong with a test; `line` counts from 1 where the text is known.
+         */
+        ProblemOut: {
+            /** Limit */
+            limit: number | null;
+            /** Line */
+            line: number | null;
+            /** Message */
+            message: string;
+            /** Path */
+            path: string;
+            /** Unit */
+            unit: string | null;
+            /** Value */
+            value: unknown;
         };
         /**
          * RecorderOut
@@ -707,6 +1094,23 @@ export interface components {
             recording: boolean;
             /** Trouble */
             trouble: string | null;
+        };
+        /**
+         * RevisionSummary
+         * @description A revision in the list.
+         */
+        RevisionSummary: {
+            /** Author */
+            author: string;
+            /** Comment */
+            comment: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Number */
+            number: number;
         };
         /**
          * RigCommand
@@ -1002,12 +1406,97 @@ export interface components {
             type: "subscribe";
         };
         /**
+         * TestAuthor
+         * @description Who does it, and why.
+         */
+        TestAuthor: {
+            /**
+             * Author
+             * @default
+             */
+            author: string;
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+        };
+        /**
+         * TestChecked
+         * @description A test as data and as text, or what is wrong with it.
+         */
+        TestChecked: {
+            /** Definition */
+            definition?: {
+                [key: string]: unknown;
+            } | null;
+            outline?: components["schemas"]["Outline"] | null;
+            /** Problems */
+            problems: components["schemas"]["ProblemOut"][];
+            /** Valid */
+            valid: boolean;
+            /** Yaml */
+            yaml?: string | null;
+        };
+        /**
+         * TestClone
+         * @description A copy, under another name.
+         */
+        TestClone: {
+            /**
+             * Author
+             * @default
+             */
+            author: string;
+            /** Name */
+            name?: string | null;
+        };
+        /**
+         * TestCreate
+         * @description A new test; without an id it gets one from its name.
+         */
+        TestCreate: {
+            /**
+             * Author
+             * @default
+             */
+            author: string;
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+            /** Definition */
+            definition?: {
+                [key: string]: unknown;
+            } | null;
+            /** Id */
+            id?: string | null;
+            /** Tags */
+            tags?: string[] | null;
+            /** Yaml */
+            yaml?: string | null;
+        };
+        /**
          * TestDetail
-         * @description A test with its definition as data and as text, and what it comes to.
+         * @description A revision of a test with its definition as data and as text, and what it comes to.
+         *
+         *     `outline` is null where an old revision is no valid test any more.
          */
         TestDetail: {
+            /** Archived */
+            archived: boolean;
+            /** Author */
+            author: string;
             /** Blocks */
             blocks: number;
+            /** Comment */
+            comment: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
             /** Definition */
             definition: {
                 [key: string]: unknown;
@@ -1018,19 +1507,62 @@ export interface components {
             duration_s: number;
             /** Id */
             id: string;
+            /** Last Run At */
+            last_run_at: string | null;
             /** Name */
             name: string;
-            outline: components["schemas"]["Outline"];
+            outline: components["schemas"]["Outline"] | null;
             /** Peak Force N */
             peak_force_n: number;
+            /** Revision */
+            revision: number;
+            /** Runs */
+            runs: number;
+            /** Tags */
+            tags: string[];
+            /**
+             * Updated At
+             * Format: date-time
+             */
+            updated_at: string;
             /** Yaml */
             yaml: string;
         };
         /**
+         * TestEdit
+         * @description A new revision, made from the one that `based_on` tells (or `If-Match`).
+         */
+        TestEdit: {
+            /**
+             * Author
+             * @default
+             */
+            author: string;
+            /** Based On */
+            based_on?: number | null;
+            /**
+             * Comment
+             * @default
+             */
+            comment: string;
+            /** Definition */
+            definition?: {
+                [key: string]: unknown;
+            } | null;
+            /** Tags */
+            tags?: string[] | null;
+            /** Yaml */
+            yaml?: string | null;
+        };
+        /**
          * TestSummary
-         * @description A test in the list.
+         * @description A test in the list, by its newest revision.
          */
         TestSummary: {
+            /** Archived */
+            archived: boolean;
+            /** Author */
+            author: string;
             /** Blocks */
             blocks: number;
             /** Description */
@@ -1039,10 +1571,46 @@ export interface components {
             duration_s: number;
             /** Id */
             id: string;
+            /** Last Run At */
+            last_run_at: string | null;
             /** Name */
             name: string;
             /** Peak Force N */
             peak_force_n: number;
+            /** Revision */
+            revision: number;
+            /** Runs */
+            runs: number;
+            /** Tags */
+            tags: string[];
+            /**
+             * Updated At
+             * Format: date-time
+             */
+            updated_at: string;
+        };
+        /**
+         * TestTags
+         * @description The tags of a test.
+         */
+        TestTags: {
+            /** Tags */
+            tags: string[];
+        };
+        /**
+         * TestText
+         * @description A test as plain data or as YAML: exactly one of both.
+         *
+         *     A bare definition (a mapping with `schema`) will do as well, as will YAML alone
+         *     (`Content-Type: application/yaml`).
+         */
+        TestText: {
+            /** Definition */
+            definition?: {
+                [key: string]: unknown;
+            } | null;
+            /** Yaml */
+            yaml?: string | null;
         };
         /**
          * Trip
@@ -1083,6 +1651,68 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ChannelOut"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listHistories: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HistoryInfo"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    addHistory: {
+        parameters: {
+            query: {
+                name: string;
+                column?: string | null;
+                rate_hz?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HistoryInfo"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -1353,7 +1983,14 @@ export interface operations {
     };
     listTests: {
         parameters: {
-            query?: never;
+            query?: {
+                search?: string;
+                tag?: string | null;
+                /** @description the archived ones too */
+                archived?: boolean;
+                limit?: number;
+                after?: string | null;
+            };
             header?: never;
             path?: never;
             cookie?: never;
@@ -1380,6 +2017,143 @@ export interface operations {
             };
         };
     };
+    createTest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    checkTest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestText"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestChecked"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    importTests: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": {
+                    /** Files */
+                    files: {
+                        [key: string]: string;
+                    };
+                };
+                "application/yaml": string;
+                "application/zip": string;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Imported"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    exportTests: {
+        parameters: {
+            query?: {
+                /** @description with commas between */
+                ids?: string | null;
+                tag?: string | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getTest: {
         parameters: {
             query?: never;
@@ -1390,6 +2164,369 @@ export interface operations {
             cookie?: never;
         };
         requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    saveTest: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description the revision it was made from: "3" */
+                "if-match"?: string | null;
+            };
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestEdit"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    archiveTest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cloneTest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["TestClone"] | null;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getJson: {
+        parameters: {
+            query?: {
+                revision?: number | null;
+            };
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getYaml: {
+        parameters: {
+            query?: {
+                revision?: number | null;
+            };
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getDifference: {
+        parameters: {
+            query: {
+                from: number;
+                to: number;
+            };
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Difference"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    restoreTest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listRevisions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RevisionSummary"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRevision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                test_id: string;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    restoreRevision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                test_id: string;
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["TestAuthor"] | null;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    tagTest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TestTags"];
+            };
+        };
         responses: {
             /** @description Successful Response */
             200: {

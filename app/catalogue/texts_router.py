@@ -1,0 +1,115 @@
+"""`/api/v1/tests/…`: texts that are not saved, and tests as files."""
+
+import json
+from typing import Annotated, Any, NamedTuple
+
+from fastapi import APIRouter, Depends, Path, Query, Request, Response
+from fastapi.exceptions import RequestValidationError
+from pydantic import ValidationError
+
+from app.catalogue import texts
+from app.catalogue.archive import unpack
+from app.catalogue.schemas import LONGEST_ID, Imported, TestChecked, TestFiles, TestText
+from app.dependencies import CatalogueService, LibraryService
+from app.errors import Refusal
+from app.problems import PROBLEMS, granted
+
+router = APIRouter(prefix="/api/v1/tests", tags=["tests"], responses=PROBLEMS)
+TestId = Annotated[str, Path(max_length=LONGEST_ID)]
+_YAML = "application/yaml"
+_ZIP = "application/zip"
+
+
+@router.post("/check", operation_id="checkTest")
+def check_test(body: TestText, catalogue: CatalogueService) -> TestChecked:
+    """Check a test and turn it from data into YAML or back; nothing is saved."""
+    return texts.check(catalogue.reader, body)
+
+
+# ---- as files ----
+
+
+class _Sent(NamedTuple):
+    media_type: str
+    content: bytes
+
+
+async def _sent(request: Request) -> _Sent:
+    """The body of a request as it came; `app.body_limit` keeps it short."""
+    media_type = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    return _Sent(media_type, await request.body())
+
+
+_FILES: dict[str, Any] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            _ZIP: {"schema": {"type": "string", "format": "binary"}},
+            _YAML: {"schema": {"type": "string"}},
+            "application/json": {"schema": TestFiles.model_json_schema()},
+        },
+    }
+}
+
+
+@router.post("/import", operation_id="importTests", openapi_extra=_FILES)
+def import_tests(sent: Annotated[_Sent, Depends(_sent)], library: LibraryService) -> Imported:
+    """Enter the tests of a library file, of one YAML, or of several files: all of them or none."""
+    return granted(library.enter(granted(_files_in(sent))))
+
+
+@router.get("/library.zip", operation_id="exportTests", response_class=Response)
+def export_tests(
+    library: LibraryService,
+    ids: Annotated[str | None, Query(max_length=50_000, description="with commas between")] = None,
+    tag: Annotated[str | None, Query(max_length=50)] = None,
+) -> Response:
+    """A zip of these tests, or of all that are not archived: a YAML each, and an index with tags."""
+    asked = None if ids is None else [part for part in ids.split(",") if part]
+    return _download(granted(library.export(asked, tag)), _ZIP, "forcerig-tests.zip")
+
+
+@router.get("/{test_id}/definition.yaml", operation_id="getYaml", response_class=Response)
+def get_yaml(
+    test_id: TestId,
+    catalogue: CatalogueService,
+    revision: Annotated[int | None, Query(ge=1, le=2**31 - 1)] = None,
+) -> Response:
+    """The test as it was written, as a file."""
+    found = granted(catalogue.texts(test_id, revision))
+    return _download(found.yaml.encode(), _YAML, f"{test_id}.yaml")
+
+
+@router.get("/{test_id}/definition.json", operation_id="getJson", response_class=Response)
+def get_json(
+    test_id: TestId,
+    catalogue: CatalogueService,
+    revision: Annotated[int | None, Query(ge=1, le=2**31 - 1)] = None,
+) -> Response:
+    """The test as plain data, as a file."""
+    found = granted(catalogue.texts(test_id, revision))
+    text = json.dumps(found.definition, indent=2, ensure_ascii=False)
+    return _download(text.encode(), "application/json", f"{test_id}.json")
+
+
+def _files_in(sent: _Sent) -> dict[str, str] | Refusal:
+    if sent.media_type == _ZIP or sent.content[:4] == b"PK\x03\x04":
+        return unpack(sent.content)
+    try:
+        if sent.media_type == "application/json":
+            return TestFiles.model_validate_json(sent.content).files
+        text = sent.content.decode("utf-8-sig")
+    except ValidationError as error:
+        raise RequestValidationError(
+            [{**fault, "loc": ("body", *fault["loc"])} for fault in error.errors()]
+        ) from None
+    except UnicodeDecodeError as error:
+        message = "is no text in UTF-8"
+        fault = {"loc": ("body",), "msg": message, "type": "text", "input": str(error)[:100]}
+        raise RequestValidationError([fault]) from None
+    return {"": text}
+
+
+def _download(content: bytes, media_type: str, name: str) -> Response:
+    headers = {"Content-Disposition": f'attachment; filename="{name}"'}
+    return Response(content, media_type=media_type, headers=headers)
