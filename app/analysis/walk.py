@@ -51,9 +51,17 @@ class Walk:
     """Follows a run through its program. Ticks in which the program stood still are left out."""
 
     def __init__(
-        self, stretches: Iterable[Stretch], period_s: float, first_tick: int | None = None
+        self,
+        stretches: Iterable[Stretch],
+        period_s: float,
+        first_tick: int | None = None,
+        also: Iterable[str] = (),
     ) -> None:
-        """`first_tick` is that of the run, where it is not that of the first record."""
+        """`first_tick` is that of the run, where it is not that of the first record.
+
+        `also` are channels that the parts have beside those `NEEDED`.
+        """
+        self._names = tuple(dict.fromkeys([*NEEDED, *also]))
         self._stretches = iter(stretches)
         self._stretch: Stretch | None = None
         self._begun = False
@@ -75,7 +83,7 @@ class Walk:
         _follow(
             self._at.reshape(1), ticks, _plain(chunk, "mode"), self._fade_ticks, positions, kept
         )
-        columns = {name: _plain(chunk, name) for name in NEEDED}
+        columns = {name: _plain(chunk, name) for name in self._names}
         if not kept.all():
             positions = positions[kept]
             columns = {name: values[kept] for name, values in columns.items()}
