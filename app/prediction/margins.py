@@ -1,0 +1,63 @@
+"""From what was watched to margins: how near each detector comes to its trip."""
+
+import math
+from typing import Any
+
+from app.definitions.limits import RIG
+from app.documents.units import unit_of
+from app.interlocks.table import Detector, Interlocks
+from app.prediction.schemas import Margin
+from app.prediction.watch import NOT_PREDICTED, Watch
+from rtcore.interlocks import Comparison, Quantity
+
+LIVE_ONLY = "Only the live rig can tell"
+NO_FAULTS = "The virtual rig's sensors do not fail of themselves"
+NOT_ARMED = "Not armed during a test"
+NO_NUMBER = "What it watches was not a number"
+TOO_SHORT = "Not armed for as long as it wants to see it"
+
+
+def margins_of(interlocks: Interlocks, watch: Watch) -> list[Margin]:
+    """The margin to every detector, in the order of the table."""
+    pairs = zip(interlocks.detectors, watch.extremes, strict=True)
+    return [_margin(detector, extreme) for detector, extreme in pairs]
+
+
+def _margin(detector: Detector, extreme: Any) -> Margin:
+    excess = float(extreme["excess"])
+    note = _note(detector, extreme)
+    if note == NO_NUMBER:
+        excess = max(1.0, abs(detector.threshold))
+    known = math.isfinite(excess) and note in ("", NO_NUMBER)
+    tick = int(extreme["tick"])
+    share = -excess / abs(detector.threshold) if known and detector.threshold != 0 else None
+    sign = -1.0 if detector.comparison is Comparison.BELOW else 1.0
+    return Margin(
+        detector=detector.name,
+        quantity=detector.quantity.name.lower(),
+        unit=unit_of(detector.quantity.name.lower()),
+        threshold=detector.threshold,
+        extreme=detector.threshold + sign * excess if known and not note else None,
+        margin=-excess if known else None,
+        margin_share=share,
+        tick=tick if known else None,
+        time_s=tick * RIG.period_s if known else None,
+        block=int(extreme["block"]) if known and extreme["block"] >= 0 else None,
+        action=detector.action.name.lower(),
+        predicted=note not in (LIVE_ONLY, NO_FAULTS),
+        note=note,
+    )
+
+
+def _note(detector: Detector, extreme: Any) -> str:
+    """Why nothing can be said of a detector; empty where something can."""
+    trips = extreme["excess"] > 0
+    if detector.quantity in NOT_PREDICTED:
+        return LIVE_ONLY
+    if detector.quantity is Quantity.SENSOR_FAULTS and not trips:
+        return NO_FAULTS
+    if extreme["ever_armed"] == 0:
+        return NOT_ARMED
+    if math.isfinite(extreme["excess"]):
+        return ""
+    return NO_NUMBER if trips else TOO_SHORT
