@@ -1,11 +1,12 @@
 """The blocks of a test: what the force does, in sequence."""
 
+import math
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
 from app.definitions.checks import exactly_one, lasts, within
-from app.definitions.later import LATER_BLOCKS, refuse_later
+from app.definitions.courses import Reach, TimeCourse
 from app.definitions.limits import RIG
 from app.definitions.quantities import (
     AmplitudeN,
@@ -13,13 +14,18 @@ from app.definitions.quantities import (
     DurationS,
     ForceN,
     FrequencyHz,
+    Number,
+    OctavesS,
     PhaseDeg,
     RateNS,
     RiseS,
     TaperCycles,
     Times,
 )
-from app.documents.fields import Document
+from app.definitions.responses import FrequencyResponse
+from app.documents.fields import Document, wrong
+
+REACH = Reach(RIG.force_limit_n, RIG.force_rate_limit_n_s, RIG.force_bandwidth_hz, "N")
 
 
 class Hold(Document):
@@ -73,6 +79,37 @@ class Harmonic(Document):
         return self
 
 
+class Sweep(Document):
+    """A sine whose frequency moves, up or down; a log sweep takes as long for each octave.
+
+    `rate_octaves_s` of a linear sweep is its rate on the whole.
+    """
+
+    kind: Literal["sweep"] = "sweep"
+    mean_n: ForceN = 0.0
+    amplitude_n: AmplitudeN
+    from_hz: FrequencyHz
+    to_hz: FrequencyHz
+    rate_octaves_s: OctavesS | None = None
+    duration_s: DurationS | None = None
+    law: Literal["log", "linear"] = "log"
+    taper_cycles: TaperCycles = 2.0
+
+    @model_validator(mode="after")
+    def _checked(self) -> Self:
+        exactly_one("rate_octaves_s", self.rate_octaves_s, "duration_s", self.duration_s)
+        within("amplitude_n", self.mean_n, self.amplitude_n, RIG.force_limit_n, "N")
+        if self.from_hz == self.to_hz:
+            raise wrong("to_hz", "must differ from from_hz: use harmonic", value=self.to_hz)
+        return self
+
+    @property
+    def lasts_s(self) -> float:
+        """From the first frequency to the last, tapers left out."""
+        octaves = abs(math.log2(self.to_hz) - math.log2(self.from_hz))
+        return self.duration_s or octaves / (self.rate_octaves_s or 1.0)
+
+
 class Layer(Document):
     """One layer of a load spectrum."""
 
@@ -97,6 +134,19 @@ class Layers(Document):
     transition_s: DurationS
 
 
+class TimeHistory(TimeCourse):
+    """Forces sampled before, from a file or from the test itself, times `gain`."""
+
+    samples_n: tuple[Number, ...] | None = Field(
+        default=None, min_length=2, max_length=RIG.sample_limit
+    )
+
+    @model_validator(mode="after")
+    def _checked(self, info: ValidationInfo) -> Self:
+        self._find("samples_n", self.samples_n, REACH, info.context)
+        return self
+
+
 class Repeat(Document):
     """Blocks, so many times in all."""
 
@@ -106,7 +156,7 @@ class Repeat(Document):
 
 
 Block = Annotated[
-    Annotated[Hold | Ramp | Step | Harmonic | Layers | Repeat, Field(discriminator="kind")],
-    refuse_later(LATER_BLOCKS, "a block"),
+    Hold | Ramp | Step | Harmonic | Layers | Sweep | FrequencyResponse | TimeHistory | Repeat,
+    Field(discriminator="kind"),
 ]
 Repeat.model_rebuild()

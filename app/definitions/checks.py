@@ -6,6 +6,8 @@ from app.definitions.limits import RIG
 from app.documents.fields import wrong
 from app.documents.units import say
 
+ROUNDING = 1 + 1e-9  # what a limit may be exceeded by in computing
+
 
 def exactly_one(first: str, a: object, second: str, b: object) -> None:
     """One of two keys, and not both."""

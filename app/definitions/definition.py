@@ -1,5 +1,6 @@
 """A test as people write it: schema 1 of the test definition (YAML or JSON)."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainSerializer, model_validator
@@ -9,8 +10,8 @@ from app.definitions.blocks import Block
 from app.definitions.limits import RIG
 from app.definitions.motions import Motion
 from app.definitions.nodes import Compensation
-from app.definitions.quantities import Number
-from app.definitions.whole import problems_of
+from app.definitions.quantities import DurationS, Number, SampleRateHz, Whole
+from app.definitions.whole import Found, problems_of
 from app.documents.fields import Document, all_wrong, wrong
 from app.documents.messages import nearest
 from rtcore.channels import CHANNEL
@@ -52,16 +53,52 @@ Channels = Annotated[
 ]
 
 
+class Timed(Document):
+    """A row at a rate."""
+
+    kind: Literal["timed"] = "timed"
+    rate_hz: SampleRateHz
+
+
+class PeakValley(Document):
+    """The peak and the valley of every cycle."""
+
+    kind: Literal["peak_valley"] = "peak_valley"
+
+
+class MaxMin(Document):
+    """The greatest and the least of every so many seconds."""
+
+    kind: Literal["max_min"] = "max_min"
+    every_s: DurationS
+
+
+class LogarithmicCycles(Document):
+    """Every tick of cycles 1, 2, 5, 10, 20, 50 and so on."""
+
+    kind: Literal["logarithmic_cycles"] = "logarithmic_cycles"
+
+
+Acquisition = Annotated[
+    Timed | PeakValley | MaxMin | LogarithmicCycles, Field(discriminator="kind")
+]
+
+
 class Recording(Document):
-    """Which channels the test is about (`all`); the recording itself always holds every one."""
+    """Which channels the test is about (`all`); the recording itself always holds every one.
+
+    `also` is what is kept beside it, each in a table of its own.
+    """
 
     channels: Channels = ALL_CHANNELS
+    also: tuple[Acquisition, ...] = Field(default=(), max_length=20)
 
 
 class Criterion(Document):
-    """A measurement and the limits within which it passes."""
+    """A measurement and the limits within which it passes, of one block or of the whole run."""
 
     measurement: Annotated[str, AfterValidator(_known_measurement)]
+    block: Annotated[Whole, Field(ge=0)] | None = None
     at_least: Number | None = None
     at_most: Number | None = None
 
@@ -90,7 +127,15 @@ class Definition(Document):
 
     @model_validator(mode="after")
     def _within_the_rig(self) -> Self:
-        problems = problems_of(self.blocks, self.motion)
+        problems = [*problems_of(self.blocks, self.motion), *self._unknown_blocks()]
         if problems:
             raise all_wrong("Definition", problems)
         return self
+
+    def _unknown_blocks(self) -> Iterator[Found]:
+        last = len(self.blocks) - 1
+        for i, criterion in enumerate(self.acceptance):
+            if criterion.block is not None and criterion.block > last:
+                message = f"there is no block {criterion.block}: the last is {last}"
+                error = wrong("block", message, value=criterion.block, limit=last)
+                yield ("acceptance", i), error

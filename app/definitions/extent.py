@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from app.definitions.limits import RIG
-from app.definitions.pieces import STEEPEST, Loop, Node, Piece
+from app.definitions.pieces import STEEPEST, SWINGING, Loop, Node, Piece
 from app.documents.tree import Path
 from rtcore.program.segments import Segment
 
@@ -94,7 +94,7 @@ class Survey:
 
 def after(piece: Piece, state: State) -> State:
     """Where a piece leaves the setpoint."""
-    if piece.kind != Segment.HARMONIC:
+    if piece.kind not in SWINGING:
         value = state.value if piece.kind == Segment.HOLD else piece.target
         return State(value, value)
     phase = state.phase_cycles if piece.continues else piece.phase_cycles
@@ -118,9 +118,12 @@ def cycles_of(piece: Piece, state: State) -> int:
 
 
 def _turned(piece: Piece, state: State) -> float:
-    """Cycles that a harmonic turns while its frequency moves linearly."""
-    began_hz = state.frequency_hz if piece.continues else piece.frequency_from_hz
-    mean_hz = 0.5 * ((began_hz or piece.frequency_to_hz) + piece.frequency_to_hz)
+    """Cycles that a harmonic turns while its frequency moves, linearly or by equal ratios."""
+    end_hz = piece.frequency_to_hz
+    began_hz = (state.frequency_hz if piece.continues else piece.frequency_from_hz) or end_hz
+    mean_hz = 0.5 * (began_hz + end_hz)
+    if piece.kind == Segment.SWEEP and began_hz != end_hz:
+        mean_hz = (end_hz - began_hz) / math.log(end_hz / began_hz)
     return mean_hz * piece.ticks * RIG.period_s
 
 
@@ -128,17 +131,20 @@ def _extent(piece: Piece, before: State, end: State) -> Extent:
     ticks = ticks_of(piece, before)
     cycles = cycles_of(piece, before) if piece.counts else 0
     mean, amplitude = _began(piece, before)
+    if piece.track is not None:  # its steepness is the block's own to answer for
+        low, high = piece.track.bounds
+        return Extent(ticks, 0, min(low, before.value), max(high, before.value))
     low = min(before.value, end.value, mean - amplitude, end.mean - end.amplitude)
     high = max(before.value, end.value, mean + amplitude, end.mean + end.amplitude)
     rate_per_s = _rate_per_s(piece, end.mean - mean, ticks)
-    if piece.kind == Segment.HARMONIC:
+    if piece.kind in SWINGING:
         rate_per_s = max(rate_per_s, _blend_per_s(piece, before, amplitude))
     return Extent(ticks, cycles, low, high, rate_per_s, piece.origin)
 
 
 def _began(piece: Piece, before: State) -> tuple[float, float]:
     """Mean and amplitude at the beginning of a piece."""
-    if piece.kind != Segment.HARMONIC:
+    if piece.kind not in SWINGING:
         return before.value, 0.0
     if piece.continues:
         return before.mean, before.amplitude
@@ -156,6 +162,7 @@ def _rate_per_s(piece: Piece, shift: float, ticks: int) -> float:
 def _blend_per_s(piece: Piece, before: State, amplitude: float) -> float:
     """How fast the amplitude blends, where that is steeper than the sine's own swing; 0 else."""
     blend_per_s = STEEPEST * abs(piece.amplitude_to - amplitude) / (piece.ticks * RIG.period_s)
-    fastest_hz = max(before.frequency_hz if piece.continues else 0.0, piece.frequency_to_hz)
+    began_hz = before.frequency_hz if piece.continues else piece.frequency_from_hz
+    fastest_hz = max(began_hz, piece.frequency_to_hz)
     swing_per_s = 2 * math.pi * fastest_hz * max(piece.amplitude_to, amplitude)
     return blend_per_s if blend_per_s > swing_per_s else 0.0

@@ -13,12 +13,21 @@ class RigLimits(Document):
     velocity_limit_m_s: float = Field(default=0.2, gt=0, description="unit under test")
     loop_rate_hz: float = Field(default=4000.0, gt=0)
     force_rate_limit_n_s: float = Field(default=2e6, gt=0, description="except in a step or a sine")
+    force_bandwidth_hz: float = Field(
+        default=150.0, gt=0, description="of a time history: the servovalve is down 3 dB at 187 Hz"
+    )
+    motion_bandwidth_hz: float = Field(
+        default=12.0, gt=0, description="of a time history: the position servo's natural frequency"
+    )
     force_rate_floor_n_s: float = Field(default=1.0, gt=0, description="slower is a hold")
     velocity_floor_m_s: float = Field(default=1e-6, gt=0, description="slower is a hold")
     duration_limit_s: float = Field(default=366 * 86_400.0, gt=0)
     cycle_limit: int = Field(default=2**31 - 1, gt=0, description="of a block; telemetry is int32")
     repeat_limit: int = Field(default=10_000_000, gt=0)
     block_limit: int = Field(default=1000, gt=0, description="in one list; telemetry is int16")
+    sample_limit: int = Field(default=100_000, gt=0, description="in a test itself; more in a file")
+    response_limit: int = Field(default=2000, gt=0, description="amplitudes times frequencies")
+    multisine_limit_s: float = Field(default=100.0, gt=0, description="period of a multisine")
 
     @property
     def period_s(self) -> float:

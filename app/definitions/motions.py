@@ -2,16 +2,17 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
 from app.definitions.checks import exactly_one, lasts, slow_enough, within
-from app.definitions.later import LATER_MOTIONS, refuse_later
+from app.definitions.courses import Reach, TimeCourse
 from app.definitions.limits import RIG
 from app.definitions.quantities import (
     AmplitudeM,
     Cycles,
     DurationS,
     FrequencyHz,
+    Number,
     PhaseDeg,
     PositionM,
     RateMS,
@@ -19,6 +20,8 @@ from app.definitions.quantities import (
     TaperCycles,
 )
 from app.documents.fields import Document
+
+REACH = Reach(RIG.stroke_limit_m, RIG.velocity_limit_m_s, RIG.motion_bandwidth_hz, "m")
 
 
 class MotionHold(Document):
@@ -73,7 +76,20 @@ class MotionHarmonic(Document):
         return self
 
 
+class MotionHistory(TimeCourse):
+    """Displacements sampled before, from a file or from the test itself, times `gain`."""
+
+    samples_m: tuple[Number, ...] | None = Field(
+        default=None, min_length=2, max_length=RIG.sample_limit
+    )
+
+    @model_validator(mode="after")
+    def _checked(self, info: ValidationInfo) -> Self:
+        self._find("samples_m", self.samples_m, REACH, info.context)
+        return self
+
+
 Motion = Annotated[
-    Annotated[MotionHold | MotionRamp | MotionStep | MotionHarmonic, Field(discriminator="kind")],
-    refuse_later(LATER_MOTIONS, "a motion"),
+    MotionHold | MotionRamp | MotionStep | MotionHarmonic | MotionHistory,
+    Field(discriminator="kind"),
 ]

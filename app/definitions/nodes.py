@@ -7,18 +7,24 @@ from typing import Any, Literal
 from app.definitions import blocks as force
 from app.definitions import motions as motion
 from app.definitions.limits import RIG
+from app.definitions.multisine import period_of
 from app.definitions.pieces import (
     Loop,
     Node,
     Piece,
     Sine,
+    Track,
+    course,
     harmonic,
     hold,
     layers,
     lead_in_s,
     ramp,
     step,
+    stepped,
+    sweep,
 )
+from app.definitions.responses import FrequencyResponse
 from app.documents.tree import Path
 from rtcore.program.segments import Branch
 
@@ -52,9 +58,13 @@ def _branch(block: force.Block, compensation: Compensation) -> Branch:
     """The notch belongs to a harmonic load; `auto` excludes the branch for every other one."""
     if compensation == "off":
         return Branch.EXCLUDED
-    if isinstance(block, force.Harmonic | force.Layers):
+    if isinstance(block, force.Harmonic | force.Layers | force.Sweep) or _is_stepped(block):
         return Branch.WITH_NOTCH
     return Branch.WITHOUT_NOTCH if compensation == "on" else Branch.EXCLUDED
+
+
+def _is_stepped(block: force.Block) -> bool:
+    return isinstance(block, FrequencyResponse) and block.method == "stepped_sine"
 
 
 def _stamped(nodes: Iterable[Node], origin: Path, branch: Branch) -> list[Node]:
@@ -87,6 +97,26 @@ def _layers(b: force.Layers) -> list[Node]:
     return layers(timed, b.repeats, b.transition_s)
 
 
+def _sweep(b: force.Sweep) -> list[Node]:
+    first = Sine(b.mean_n, b.amplitude_n, b.from_hz)
+    log = b.law == "log"
+    return sweep(first, b.to_hz, b.lasts_s, b.taper_cycles, FORCE_LEAD_S, log=log)
+
+
+def _response(b: FrequencyResponse) -> list[Node]:
+    if b.method == "multisine":
+        return _multisine(b)
+    sines = [Sine(b.mean_n, a, hz) for a in b.amplitudes_n for hz in b.frequencies()]
+    return stepped(sines, b.settle_cycles, b.measure_cycles, FORCE_LEAD_S)
+
+
+def _multisine(b: FrequencyResponse) -> list[Node]:
+    period = period_of(b.grid())
+    periods = b.settle_cycles + b.measure_cycles
+    tracks = [Track(period, amplitude_n, b.mean_n, held=b.mean_n) for amplitude_n in b.amplitudes_n]
+    return [node for track in tracks for node in course(track, periods, FORCE_LEAD_S)]
+
+
 def _motion_harmonic(m: motion.MotionHarmonic) -> list[Node]:
     sine = Sine(m.mean_m, m.amplitude_m, m.frequency_hz)
     duration_s = _duration_s(m.cycles, m.frequency_hz, m.duration_s)
@@ -101,10 +131,14 @@ _BLOCKS: dict[type, Callable[[Any], list[Node]]] = {
     force.Step: lambda b: step(b.to_n, b.rise_s, b.hold_s, is_step=True),
     force.Harmonic: _harmonic,
     force.Layers: _layers,
+    force.Sweep: _sweep,
+    FrequencyResponse: _response,
+    force.TimeHistory: lambda b: course(Track(b.history, b.gain), b.repeats, FORCE_LEAD_S),
 }
 _MOTIONS: dict[type, Callable[[Any], list[Node]]] = {
     motion.MotionHold: lambda m: hold(m.displacement_m, m.duration_s, MOTION_LEAD_S),
     motion.MotionRamp: lambda m: ramp(m.to_m, m.rate_m_s, m.duration_s),
     motion.MotionStep: lambda m: step(m.to_m, m.rise_s, m.hold_s, is_step=m.rise_s == 0),
     motion.MotionHarmonic: _motion_harmonic,
+    motion.MotionHistory: lambda m: course(Track(m.history, m.gain), m.repeats, MOTION_LEAD_S),
 }

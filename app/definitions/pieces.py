@@ -4,15 +4,58 @@ The same for force (N) and motion (m): only lead-in and limits differ.
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from app.definitions.limits import RIG
 from app.documents.tree import Path
+from app.histories.curve import Values, pieces
+from app.histories.history import History
 from rtcore.program.segments import Branch, Segment
 
 LEAD_IN_S = 0.1
+BLEND_CYCLES = 2.0  # of the slower of two sines, from one to the other
 STEEPEST = math.pi / 2  # slope of half a cosine in its middle, over its mean slope
+
+
+SWINGING = (Segment.HARMONIC, Segment.SWEEP)
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """Samples times `gain` plus `offset`, in N or m, that a piece plays."""
+
+    history: History
+    gain: float
+    offset: float = 0.0
+    held: float = math.nan  # what a hold fades to; NaN: it stays where it is
+    begin: int = 0  # the first sample whose knot is given
+
+    def at(self, value: float) -> float:
+        """A sample as it is played."""
+        return self.offset + self.gain * value
+
+    @property
+    def first(self) -> float:
+        """Where it begins."""
+        return self.at(self.history.statistics.first)
+
+    @property
+    def last(self) -> float:
+        """Where it ends."""
+        return self.at(self.history.statistics.last)
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and greatest value; the curve does not go beyond its samples."""
+        found = self.history.statistics
+        low, high = sorted((self.at(found.low), self.at(found.high)))
+        return low, high
+
+    def knots(self) -> Iterator[tuple[Values, Values]]:
+        """Values and slopes (change an interval), part after part, (n,) each."""
+        for _, values, slopes in pieces(self.history.values, self.begin):
+            yield self.offset + self.gain * values, self.gain * slopes
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +75,8 @@ class Piece:
     phase_cycles: float = 0.0
     continues: int = 0
     counts: int = 0
+    times: int = 0  # knots of a track
+    track: Track | None = None
     branch: Branch = Branch.EXCLUDED
     is_step: bool = False  # meant to be sudden
     origin: Path = ()  # the block it serves: ("blocks", 1, "blocks", 0)
@@ -56,6 +101,21 @@ class Sine:
     mean: float
     amplitude: float
     frequency_hz: float
+
+
+def unrolled(nodes: Iterable[Node]) -> Iterator[Piece]:
+    """Every piece in the order in which it is played."""
+    for node in nodes:
+        if isinstance(node, Piece):
+            yield node
+        else:
+            for _ in range(node.times):
+                yield from unrolled(node.body)
+
+
+def loops_within(nodes: Iterable[Node]) -> int:
+    """How many loops deep nodes are."""
+    return max((1 + loops_within(n.body) for n in nodes if isinstance(n, Loop)), default=0)
 
 
 def whole_ticks(duration_s: float) -> int:
@@ -94,25 +154,88 @@ def harmonic(
     sine: Sine, duration_s: float, phase_deg: float, taper_cycles: float, lead_s: float
 ) -> list[Node]:
     """Taper in, full amplitude for `duration_s`, taper out; without tapers a lead-in instead."""
+    return _swung(sine, _steady(sine, duration_s, counts=1), phase_deg, taper_cycles, lead_s)
+
+
+def sweep(
+    first: Sine, to_hz: float, duration_s: float, taper_cycles: float, lead_s: float, *, log: bool
+) -> list[Node]:
+    """Taper in at the first frequency, move to the other in `duration_s`, taper out there."""
+    last = replace(first, frequency_hz=to_hz)
+    moving = _steady(last, duration_s, counts=1)
+    moving = replace(moving, kind=Segment.SWEEP if log else Segment.HARMONIC)
+    return _swung(first, moving, 0.0, taper_cycles, lead_s)
+
+
+def stepped(
+    sines: Sequence[Sine], settle_cycles: int, measure_cycles: int, shortest_s: float
+) -> list[Node]:
+    """Sine after sine: blended into, settled, and counted; the last tapers out."""
+    nodes: list[Node] = []
+    before_hz = sines[0].frequency_hz
+    for sine in sines:
+        hz = sine.frequency_hz
+        nodes.append(_steady(sine, _blend_s(min(before_hz, hz), shortest_s), counts=0))
+        if settle_cycles:
+            nodes.append(_steady(sine, settle_cycles / hz, counts=0))
+        nodes.append(_steady(sine, measure_cycles / hz, counts=1))
+        before_hz = hz
+    last_s = _blend_s(before_hz, shortest_s)
+    return [*nodes, _taper_out(sines[-1], whole_ticks(last_s))]
+
+
+def course(track: Track, repeats: int, lead_s: float) -> list[Node]:
+    """Lead in to the first sample, then play; led back between repeats where the ends differ."""
+    lead_in = Piece(Segment.SMOOTH, whole_ticks(lead_s), target=track.first)
+    playing = _playing(track)
+    if track.first == track.last or repeats == 1:
+        return [lead_in, Loop(repeats, (playing,)) if repeats > 1 else playing]
+    return [Loop(repeats, (lead_in, playing))]
+
+
+def _playing(track: Track) -> Piece:
+    knots, rate_hz = track.history.statistics.samples, track.history.rate_hz
+    ticks = math.ceil((knots - 1) / (rate_hz * RIG.period_s) - 1e-9)
+    return Piece(
+        Segment.SAMPLES,
+        ticks,
+        target=track.last,
+        rate_per_s=rate_hz,
+        mean_to=track.held,
+        times=knots,
+        track=track,
+    )
+
+
+def _blend_s(slower_hz: float, shortest_s: float) -> float:
+    """How long one sine takes to become another."""
+    return max(BLEND_CYCLES / slower_hz, shortest_s)
+
+
+def _swung(
+    first: Sine, swing: Piece, phase_deg: float, taper_cycles: float, lead_s: float
+) -> list[Node]:
+    """A swing that begins as one sine, with what leads into it and out of it."""
     phase_cycles = phase_deg / 360
-    steady = _steady(sine, duration_s, counts=1)
     if taper_cycles == 0:
-        first = sine.mean + sine.amplitude * math.sin(2 * math.pi * phase_cycles)
-        lead_in = Piece(Segment.SMOOTH, whole_ticks(lead_s), target=first)
-        return [lead_in, _started(steady, sine, phase_cycles)]
-    ticks = whole_ticks(taper_cycles / sine.frequency_hz)
-    turned = sine.frequency_hz * ticks * RIG.period_s
+        value = first.mean + first.amplitude * math.sin(2 * math.pi * phase_cycles)
+        lead_in = Piece(Segment.SMOOTH, whole_ticks(lead_s), target=value)
+        return [lead_in, _started(swing, first, phase_cycles)]
+    ticks = whole_ticks(taper_cycles / first.frequency_hz)
+    turned = first.frequency_hz * ticks * RIG.period_s
     taper_in = Piece(
         Segment.HARMONIC,
         ticks,
         mean_from=math.nan,
-        mean_to=sine.mean,
-        amplitude_to=sine.amplitude,
-        frequency_from_hz=sine.frequency_hz,
-        frequency_to_hz=sine.frequency_hz,
+        mean_to=first.mean,
+        amplitude_to=first.amplitude,
+        frequency_from_hz=first.frequency_hz,
+        frequency_to_hz=first.frequency_hz,
         phase_cycles=(phase_cycles - turned) % 1.0,
     )
-    return [taper_in, steady, _taper_out(sine, ticks)]
+    last = replace(first, frequency_hz=swing.frequency_to_hz)
+    ticks_out = whole_ticks(taper_cycles / last.frequency_hz)
+    return [taper_in, swing, _taper_out(last, ticks_out)]
 
 
 def layers(sines: Sequence[tuple[Sine, float]], repeats: int, transition_s: float) -> list[Node]:
@@ -138,19 +261,15 @@ def _steady(sine: Sine, duration_s: float, counts: int) -> Piece:
     )
 
 
-def _started(steady: Piece, sine: Sine, phase_cycles: float) -> Piece:
-    """A steady piece that begins by itself, at a phase, instead of continuing."""
-    return Piece(
-        steady.kind,
-        steady.ticks,
-        mean_from=sine.mean,
-        mean_to=sine.mean,
-        amplitude_from=sine.amplitude,
-        amplitude_to=sine.amplitude,
-        frequency_from_hz=sine.frequency_hz,
-        frequency_to_hz=sine.frequency_hz,
+def _started(swing: Piece, first: Sine, phase_cycles: float) -> Piece:
+    """A swing that begins by itself, at a phase, instead of continuing."""
+    return replace(
+        swing,
+        mean_from=first.mean,
+        amplitude_from=first.amplitude,
+        frequency_from_hz=first.frequency_hz,
         phase_cycles=phase_cycles % 1.0,
-        counts=steady.counts,
+        continues=0,
     )
 
 

@@ -5,37 +5,32 @@ from collections.abc import Iterator, Sequence
 from pydantic_core import PydanticCustomError
 
 from app.definitions.blocks import Block
-from app.definitions.expansion import loops_within, segments_in
+from app.definitions.checks import ROUNDING
 from app.definitions.extent import Extent, Survey
 from app.definitions.limits import RIG
 from app.definitions.motions import Motion
 from app.definitions.nodes import force_nodes, motion_nodes
-from app.definitions.pieces import Node
+from app.definitions.pieces import Node, loops_within
 from app.documents.fields import wrong
 from app.documents.tree import Path
 from app.documents.units import say
-from rtcore.program.segments import MAX_DEPTH, MAX_SEGMENTS
+from rtcore.program.segments import MAX_DEPTH
 
 Found = tuple[Path, PydanticCustomError]
-ROUNDING = 1 + 1e-9
 
 
 def problems_of(blocks: Sequence[Block], motion: Sequence[Motion]) -> list[Found]:
     """Everything wrong with a test whose blocks are each right by themselves."""
     forces, motions = force_nodes(blocks, "auto"), motion_nodes(motion)
     return [
-        *_of_size("blocks", forces),
-        *_of_size("motion", motions),
+        *_of_depth("blocks", forces),
+        *_of_depth("motion", motions),
         *_of_course("blocks", forces, RIG.force_rate_limit_n_s, "N/s"),
         *_of_course("motion", motions, RIG.velocity_limit_m_s, "m/s"),
     ]
 
 
-def _of_size(name: str, blocks: Sequence[Sequence[Node]]) -> Iterator[Found]:
-    segments = 1 + sum(segments_in(nodes) for nodes in blocks)
-    if segments > MAX_SEGMENTS:
-        message = f"takes {segments:,} segments, must be at most {MAX_SEGMENTS:,}: use repeat"
-        yield (name,), wrong("", message, value=segments, limit=MAX_SEGMENTS)
+def _of_depth(name: str, blocks: Sequence[Sequence[Node]]) -> Iterator[Found]:
     for i, nodes in enumerate(blocks):
         depth = loops_within(nodes)
         if depth > MAX_DEPTH:

@@ -7,7 +7,7 @@ from app.analysis.evidence import Kind, Sine, StepWindow, Stretch, Windows
 from app.definitions.definition import Definition
 from app.definitions.extent import AT_REST, State, after, cycles_of, ticks_of
 from app.definitions.nodes import force_nodes
-from app.definitions.pieces import Node, Piece
+from app.definitions.pieces import Node, Piece, unrolled
 from rtcore.program.segments import Segment
 
 
@@ -82,16 +82,7 @@ def _stretch(played: _Played, first: int, last: int, kind: Kind, end: State) -> 
 def _play(nodes: Iterable[Node]) -> Iterator[_Played]:
     """Every piece in the order in which the loop carries it out."""
     state, tick = AT_REST, 0
-    for piece in _unrolled(nodes):
+    for piece in unrolled(nodes):
         ticks, end = ticks_of(piece, state), after(piece, state)
         yield _Played(piece, state, end, tick, tick + ticks)
         state, tick = end, tick + ticks
-
-
-def _unrolled(nodes: Iterable[Node]) -> Iterator[Piece]:
-    for node in nodes:
-        if isinstance(node, Piece):
-            yield node
-        else:
-            for _ in range(node.times):
-                yield from _unrolled(node.body)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from types import UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
-from pydantic import BaseModel
+from pydantic import BaseModel, Tag
 
 from app.documents.tree import Path
 
@@ -50,6 +50,10 @@ def locate(model: type[BaseModel], location: tuple[int | str, ...]) -> Place:
         if chosen and len(models) > 1:
             expected = chosen[0]
             continue
+        tagged = _tagged(expected, key)
+        if tagged is not None:
+            expected = tagged
+            continue
         path.append(key)
         if isinstance(key, str) and models:
             holder = models[0]
@@ -79,6 +83,16 @@ def kinds_of(model: type[BaseModel]) -> tuple[Any, ...]:
 def names_of(model: type[BaseModel]) -> list[str]:
     """The keys of a model as they are written in a document."""
     return [field.alias or name for name, field in model.model_fields.items()]
+
+
+def _tagged(annotation: Any, key: int | str) -> Any:
+    """The member of a union that bears a tag of this name, or None."""
+    if get_origin(annotation) is Annotated:
+        return _tagged(get_args(annotation)[0], key)
+    for member in get_args(annotation):
+        if any(isinstance(m, Tag) and m.tag == key for m in getattr(member, "__metadata__", ())):
+            return member
+    return None
 
 
 def _field(model: type[BaseModel], key: str) -> Any:

@@ -24,13 +24,14 @@ def read_file(
     code: Code,
     *,
     build: Callable[[Mapping[str, Any]], M] | None = None,
+    context: Mapping[str, Any] | None = None,
 ) -> M | Refusal:
     """The document in a file: JSON where its name ends in .json, YAML otherwise."""
     text = _text_of(path)
     if isinstance(text, Problem):
         return refuse(code, str(path), [text])
     json = path.suffix.lower() == JSON_SUFFIX
-    return read_text(model, text, code, str(path), json=json, build=build)
+    return read_text(model, text, code, str(path), json=json, build=build, context=context)
 
 
 def read_text(
@@ -41,6 +42,7 @@ def read_text(
     *,
     json: bool = False,
     build: Callable[[Mapping[str, Any]], M] | None = None,
+    context: Mapping[str, Any] | None = None,
 ) -> M | Refusal:
     """The document in a text. `source` names it in the refusal."""
     try:
@@ -49,7 +51,7 @@ def read_text(
         tree = parse_json(text) if json else parse_yaml(text)
     except Malformed as error:
         return refuse(code, source, [_whole(str(error), error.path, error.line)])
-    return read_data(model, tree.data, code, source, tree.lines, build=build)
+    return read_data(model, tree.data, code, source, tree.lines, build=build, context=context)
 
 
 def read_data(
@@ -60,10 +62,12 @@ def read_data(
     lines: dict[Path, int] | None = None,
     *,
     build: Callable[[Mapping[str, Any]], M] | None = None,
+    context: Mapping[str, Any] | None = None,
 ) -> M | Refusal:
     """The document in plain data (as from JSON).
 
     `build` makes the model where data alone do not: it may raise the model's ValidationError.
+    `context` is what the model's validators may look things up in.
     """
     if data is None:
         return refuse(code, source, [_whole("the document is empty")])
@@ -71,7 +75,7 @@ def read_data(
         message = f"the document must be a mapping of keys to values, is {plain(data)}"
         return refuse(code, source, [_whole(message)])
     try:
-        return build(data) if build else model.model_validate(data)
+        return build(data) if build else model.model_validate(data, context=context)
     except ValidationError as error:
         found = [dict(details) for details in error.errors(include_url=False)]
         tree = Tree(data, lines or {})

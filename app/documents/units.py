@@ -5,6 +5,7 @@ import math
 _UNITS = (  # the longest ending first
     ("_n_s", "N/s"),
     ("_m_s", "m/s"),
+    ("_octaves_s", "octaves/s"),
     ("_per_s", "1/s"),
     ("_rad_s", "rad/s"),
     ("_percent", "%"),

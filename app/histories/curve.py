@@ -14,9 +14,11 @@ CHUNK = 1 << 16
 Values = npt.NDArray[np.float64]
 
 
-def pieces(values: Values, chunk: int = CHUNK) -> Iterator[tuple[int, Values, Values]]:
-    """Samples and their slopes from the first on: (index of the first, (k,) values, (k,) slopes)."""
-    for first in range(0, len(values), chunk):
+def pieces(
+    values: Values, begin: int = 0, chunk: int = CHUNK
+) -> Iterator[tuple[int, Values, Values]]:
+    """Samples and slopes from one on: (index of the first, (k,) values, (k,) slopes) after another."""
+    for first in range(begin, len(values), chunk):
         last = min(first + chunk, len(values))
         yield first, np.array(values[first:last], np.float64), slopes(values, first, last)
 

@@ -21,7 +21,6 @@ from app.runs.plans import Plans
 from app.runs.schemas import RunStart
 from app.settings import VERSION
 from rtcore.codes import Opcode
-from rtcore.program.stream import resident
 
 _CATCHING_UP = Refusal(
     Code.BUSY, "Cannot start: the recorder is still reading what happened before; try again"
@@ -76,7 +75,7 @@ class Starter:
         if self._recorder.following is not life:
             return _CATCHING_UP
         self._settle()
-        refusal = self._link.load_program(resident(expand(definition)))
+        refusal = self._link.load_program(expand(definition))
         if refusal is not None:
             return refusal
         plan = outline(definition).model_dump(mode="json")

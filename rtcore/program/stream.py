@@ -94,13 +94,13 @@ class TableWriter:
         self._segments = Ring(table["segments"], address + _COUNT, iter(course.segments))
         self._knots = Ring(table["knots"], address + _KNOT_COUNT, iter(course.knots))
         self.streaming = self.fill(0, 0)
-        table["streamed"] = int(self._segments_follow)
+        table["streamed"] = int(self.segments_follow)
 
     def fill(self, segment: int, knot: int) -> bool:
         """Write on, where the loop is at this segment and knot; False once everything has been given."""
-        self._segments_follow = self._segments.fill(segment)
-        knots_follow = self._knots.fill(knot)
-        self.streaming = self._segments_follow or knots_follow
+        self.segments_follow = self._segments.fill(segment)
+        self.knots_follow = self._knots.fill(knot)
+        self.streaming = self.segments_follow or self.knots_follow
         return self.streaming
 
 

@@ -43,6 +43,34 @@ def layers(**changed: Any) -> Data:
     return {"kind": "layers", "layers": [_changed(layer, changed)], "transition_s": 0.1}
 
 
+def sweep(**changed: Any) -> Data:
+    """A sweep; None leaves a key out."""
+    block = {"kind": "sweep", "amplitude_n": 1000, "from_hz": 1, "to_hz": 100, "duration_s": 5}
+    return _changed(block, changed)
+
+
+def response(**changed: Any) -> Data:
+    """A frequency response; None leaves a key out."""
+    block = {
+        "kind": "frequency_response",
+        "amplitudes_n": [1000],
+        "frequencies_hz": [10, 20],
+    }
+    return _changed(block, changed)
+
+
+def history(**changed: Any) -> Data:
+    """A time history of forces; None leaves a key out."""
+    block = {"kind": "time_history", "samples_n": [0, 400, 500, 400, 0, -100], "rate_hz": 100}
+    return _changed(block, changed)
+
+
+def moving_history(**changed: Any) -> Data:
+    """A test whose unit moves along samples."""
+    motion = {"kind": "time_history", "samples_m": [0, 0.001, 0.002, 0.001, 0], "rate_hz": 20}
+    return with_blocks(hold(), motion=[_changed(motion, changed)])
+
+
 def repeat(times: Any, *blocks: Any) -> Data:
     """Blocks repeated."""
     return {"kind": "repeat", "times": times, "blocks": list(blocks)}

@@ -1,5 +1,7 @@
 """What the loop makes of a definition: against closed forms, through the loop's own generator."""
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -25,7 +27,13 @@ def _definition(*blocks: bad.Data, **others: object) -> Definition:
 def _played(*blocks: bad.Data, extra_ticks: int = 10) -> Played:
     definition = _definition(*blocks)
     ticks = round(outline(definition).duration_s * RATE_HZ)
-    return play(expand(definition)["force"], ticks + extra_ticks)
+    return play(expand(definition).force, ticks + extra_ticks)
+
+
+def _table(definition: Definition) -> Any:
+    """The one array of segments of a force course that fits."""
+    (table,) = expand(definition).force.segments
+    return table
 
 
 def _blend(ticks: int) -> Values:
@@ -154,10 +162,10 @@ def test_a_repeat_plays_its_blocks_so_many_times() -> None:
 
 
 def test_a_million_repeats_take_one_segment_more() -> None:
-    one = expand(_definition(bad.repeat(1, bad.hold(duration_s=0.01))))["force"]
-    million = expand(_definition(bad.repeat(1_000_000, bad.hold(duration_s=0.01))))["force"]
-    assert one["count"] == million["count"] == 3
-    assert million["segments"][1]["times"] == 1_000_000
+    one = _table(_definition(bad.repeat(1, bad.hold(duration_s=0.01))))
+    million = _table(_definition(bad.repeat(1_000_000, bad.hold(duration_s=0.01))))
+    assert len(one) == len(million) == 3
+    assert million[1]["times"] == 1_000_000
 
 
 def test_the_block_of_a_segment_is_the_top_level_block() -> None:
@@ -184,8 +192,7 @@ def test_compensation_depends_on_the_kind_of_block(
         bad.repeat(2, bad.sine(), bad.hold()),
     )
     definition = _definition(*blocks, controller={"compensation": compensation})
-    table = expand(definition)["force"]
-    segments = table["segments"][: table["count"]]
+    segments = _table(definition)
     used = segments[(segments["kind"] != Segment.REPEAT) & (segments["kind"] != Segment.END)]
     for segment in used:
         harmonic = segment["kind"] == Segment.HARMONIC
@@ -199,7 +206,7 @@ def test_motion_has_a_table_of_its_own() -> None:
         motion=[{"kind": "harmonic", "amplitude_m": 0.002, "frequency_hz": 4, "cycles": 2}],
     )
     program = expand(definition)
-    played = play(program["motion"], 4010)
+    played = play(program.motion, 4010)
     assert played.ticks == 4000  # a cycle of taper on either side
     steady = 0.002 * np.sin(2 * np.pi * 4 * np.arange(2000) * PERIOD_S)
     np.testing.assert_allclose(played.value[1000:3000], steady, atol=1e-12)
@@ -207,10 +214,9 @@ def test_motion_has_a_table_of_its_own() -> None:
 
 
 def test_a_table_ends_with_its_end_and_may_be_full() -> None:
-    nothing = expand(_definition(bad.hold()))["motion"]
-    assert nothing["count"] == 1
-    assert nothing["segments"][0]["kind"] == Segment.END
+    (nothing,) = expand(_definition(bad.hold())).motion.segments
+    assert nothing["kind"].tolist() == [Segment.END]
     blocks = [bad.repeat(1, *[bad.hold(duration_s=0.01)] * 818)] * 5
-    full = expand(_definition(*blocks))["force"]
-    assert full["count"] == MAX_SEGMENTS
-    assert full["segments"][MAX_SEGMENTS - 1]["kind"] == Segment.END
+    full = _table(_definition(*blocks))
+    assert len(full) == MAX_SEGMENTS
+    assert full[-1]["kind"] == Segment.END

@@ -62,7 +62,7 @@ def _steps(blocks: list[Any]) -> int:
 def test_no_block_makes_the_setpoint_jump(data: strategies.Data) -> None:
     definition = _read(data)
     ticks = round(outline(definition).duration_s * RATE_HZ)
-    played = play(expand(definition)["force"], ticks + 2)
+    played = play(expand(definition).force, ticks + 2)
     moved = np.abs(np.diff(played.value, prepend=0.0))
     assert moved.max() <= _most_in_a_tick_n(data) + 1e-6
 
@@ -72,7 +72,7 @@ def test_no_block_makes_the_setpoint_jump(data: strategies.Data) -> None:
 def test_only_steps_make_it_jump(data: strategies.Data) -> None:
     definition = _read(data)
     ticks = round(outline(definition).duration_s * RATE_HZ)
-    played = play(expand(definition)["force"], ticks + 2)
+    played = play(expand(definition).force, ticks + 2)
     moved = np.abs(np.diff(played.value, prepend=0.0))
     sudden = moved > _most_in_a_tick_n(data) + STEEPEST_RISE_N
     assert np.sum(sudden) <= _steps(data["blocks"])
@@ -84,7 +84,7 @@ def test_durations_cycles_and_peaks_are_what_the_generator_does(data: strategies
     definition = _read(data)
     found = outline(definition)
     ticks = round(found.duration_s * RATE_HZ)
-    played = play(expand(definition)["force"], ticks + 5)
+    played = play(expand(definition).force, ticks + 5)
     assert played.ticks == ticks
     assert abs(found.peak_force_n) <= 50e3
     for block in found.blocks:
@@ -105,7 +105,7 @@ def test_motion_lasts_and_reaches_what_the_outline_says(data: strategies.Data) -
     definition = _read(data)
     found = outline(definition)
     ticks = round(found.motion_duration_s * RATE_HZ)
-    played = play(expand(definition)["motion"], ticks + 5)
+    played = play(expand(definition).motion, ticks + 5)
     assert played.ticks == ticks
     assert np.abs(played.value).max() <= found.peak_displacement_m + 1e-12
 
@@ -118,7 +118,7 @@ def test_windows_hold_exactly_the_ticks_that_count(data: strategies.Data) -> Non
     ticks = round(found.duration_s * RATE_HZ)
     data_windows = windows(definition, ticks)
     assert data_windows.ticks == ticks
-    played = play(expand(definition)["force"], ticks + 1)
+    played = play(expand(definition).force, ticks + 1)
     counting = np.flatnonzero(np.diff(played.cycle))
     counts_up = counting[played.cycle[counting + 1] > played.cycle[counting]] + 1
     for tick in counts_up:

@@ -1,0 +1,84 @@
+"""Multisines: many sines in one period, their phases chosen so that they need little amplitude together.
+
+Schroeder's phases first (IEEE Trans. Inf. Theory 16, 1970), then clipping as of Van der Ouderaa, Schoukens and
+Renneboog (IEEE Trans. Instrum. Meas. 37, 1988): clip the signal, keep the phases of what is left.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from app.definitions.limits import RIG
+from app.histories.history import History, from_values
+
+_CLIPPED = 0.9  # of the peak
+_ROUNDS = 60
+_LARGEST = 1 << 15  # samples of a period whose phases are worth the rounds
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A period in ticks, and which of its multiples are excited: frequency = line / period."""
+
+    period_ticks: int
+    lines: tuple[int, ...]
+
+    def frequencies_hz(self) -> tuple[float, ...]:
+        """The frequency of each line."""
+        return tuple(line * RIG.loop_rate_hz / self.period_ticks for line in self.lines)
+
+
+def grid_of_list(frequencies_hz: Sequence[float]) -> Grid:
+    """The shortest period of whole ticks into which each frequency fits whole."""
+    exact = sorted({Fraction(str(f)) for f in frequencies_hz})
+    denominator = math.lcm(*(f.denominator for f in exact))
+    common = Fraction(math.gcd(*(int(f * denominator) for f in exact)), denominator)
+    ticks = Fraction(round(RIG.loop_rate_hz)) / common
+    period_s = ticks.denominator / common
+    return Grid(int(ticks * ticks.denominator), tuple(int(f * period_s) for f in exact))
+
+
+def grid_of_band(frequencies_hz: Sequence[float]) -> Grid:
+    """The shortest period in which frequencies at equal ratios stay apart; they move onto its lines."""
+    low, *_ = ordered = sorted(frequencies_hz)
+    apart_hz = ordered[1] - low
+    period_s = math.ceil(low / apart_hz - 1e-9) / low
+    period_ticks = math.ceil(period_s * RIG.loop_rate_hz - 1e-9)
+    lines = {math.floor(f * period_ticks / RIG.loop_rate_hz + 0.5) for f in ordered}
+    return Grid(period_ticks, tuple(sorted(lines)))
+
+
+@lru_cache(maxsize=32)
+def period_of(grid: Grid) -> History:
+    """One period at the loop's rate, its first sample again at its end, its greatest value 1."""
+    phases = _phases(grid)
+    spectrum = np.zeros(grid.period_ticks // 2 + 1, np.complex128)
+    spectrum[list(grid.lines)] = np.exp(1j * phases)
+    wave = np.fft.irfft(spectrum, grid.period_ticks)
+    wave /= np.abs(wave).max()
+    return from_values(np.append(wave, wave[0]), RIG.loop_rate_hz)
+
+
+def _phases(grid: Grid) -> npt.NDArray[np.float64]:
+    """(lines,) rad, of a low crest."""
+    lines = list(grid.lines)
+    count = len(lines)
+    schroeder = -np.pi * np.arange(count) * (np.arange(count) - 1) / count
+    size = 1 << (16 * max(lines) - 1).bit_length()
+    if size > _LARGEST:
+        return schroeder
+    phases, best, least = schroeder, schroeder, math.inf
+    for _ in range(_ROUNDS):
+        spectrum = np.zeros(size // 2 + 1, np.complex128)
+        spectrum[lines] = np.exp(1j * phases)
+        wave = np.fft.irfft(spectrum, size)
+        peak = float(np.abs(wave).max())
+        if peak < least:
+            best, least = phases, peak
+        phases = np.angle(np.fft.rfft(np.clip(wave, -_CLIPPED * peak, _CLIPPED * peak))[lines])
+    return best
