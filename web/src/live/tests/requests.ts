@@ -1,14 +1,13 @@
 // Requests to /api/v1/tests and /api/v1/histories.
 
 import { post, request } from "../api";
+import type { Computing, Prediction } from "../types";
 import type {
   CatalogueEntry,
   Checked,
-  Computing,
   Difference,
   HistoryFile,
   Imported,
-  Prediction,
   Preview,
   Revision,
   Spectrum,
@@ -45,6 +44,7 @@ export const readSpectrum = (text: string): Promise<Spectrum> => request("tests/
 
 export interface Saving {
   readonly comment: string;
+  readonly author: string;
   readonly tags?: readonly string[];
 }
 
@@ -99,6 +99,6 @@ export const predict = (
 ): Promise<Prediction | Computing> => {
   const until = { signal: AbortSignal.any([signal, AbortSignal.timeout(PREDICTION_MS)]) };
   return "id" in asked
-    ? request(`${at(asked.id)}/prediction`, { ...post({ revision: asked.revision, wait_s: 5 }), ...until })
-    : request("tests/prediction", { ...post({ ...asked, wait_s: 5 }), ...until });
+    ? request(`${at(asked.id)}/prediction`, { ...post({ revision: asked.revision, wait_s: 1 }), ...until })
+    : request("tests/prediction", { ...post({ ...asked, wait_s: 1 }), ...until });
 };

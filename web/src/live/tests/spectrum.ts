@@ -75,3 +75,9 @@ export function totals(layers: readonly Partial<Layer>[], repeats: number): { cy
   }
   return { cycles: cycles * repeats, duration_s: duration_s * repeats };
 }
+
+/** Figures separated by spaces or semicolons, in SI; null where one of them is none. */
+export function figuresIn(quantity: Quantity, text: string): number[] | null {
+  const values = text.split(/[\s;]+/).filter((word) => word !== "").map((word) => fromEntry(quantity, word));
+  return values.some((value) => value === null) ? null : (values as number[]);
+}

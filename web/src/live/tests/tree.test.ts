@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { rowsOf } from "./rows";
 import {
+  blockOf,
   duplicateAt,
   getAt,
   insertAt,
@@ -11,6 +12,7 @@ import {
   setAt,
   written,
   type Json,
+  type Moved,
   type Path,
 } from "./tree";
 
@@ -66,8 +68,8 @@ describe("moving a block", () => {
 
   it("comes back: down and up again leave every block where it was", () => {
     for (const { path } of rowsOf(TEST, ["blocks"])) {
-      const { tree, path: below } = moveBlock<Json>(TEST, path, 1);
-      if (tree !== TEST) expect(moveBlock(tree, below, -1).tree).toEqual(TEST);
+      const down: Moved<Json> = moveBlock(TEST, path, 1);
+      if (down.tree !== TEST) expect(moveBlock(down.tree, down.path, -1).tree).toEqual(TEST);
     }
   });
 });
@@ -79,6 +81,13 @@ describe("paths", () => {
     expect(parsePath("blocks[1].to_n")).toEqual(["blocks", 1, "to_n"]);
     expect(isWithin(["blocks", 1, "to_n"], ["blocks", 1])).toBe(true);
     expect(isWithin(["blocks", 11], ["blocks", 1])).toBe(false);
+  });
+
+  it("lead into a block, the innermost", () => {
+    const block = (path: string): string => written(blockOf(parsePath(path)));
+    expect(block("blocks[1].blocks[0].layers[2].cycles")).toBe("blocks[1].blocks[0]");
+    expect(block("motion[3].to_m")).toBe("motion[3]");
+    expect(block("acceptance[0].at_most")).toBe("");
   });
 
   it("are numbered as a person counts", () => {

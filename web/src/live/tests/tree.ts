@@ -103,3 +103,11 @@ export const parsePath = (text: string): Path =>
 /** Whether a path is the other one or lies below it. */
 export const isWithin = (path: Path, other: Path): boolean =>
   other.every((key, i) => path[i] === key);
+
+/** The block (or motion) that a path leads into, the innermost; empty where it leads into none. */
+export function blockOf(path: Path): Path {
+  const at = path.findLastIndex(
+    (key, i) => typeof key === "number" && (path[i - 1] === "blocks" || path[i - 1] === "motion"),
+  );
+  return path.slice(0, at + 1);
+}

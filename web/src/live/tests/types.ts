@@ -77,7 +77,8 @@ export interface CatalogueEntry {
 export interface TestDetail extends CatalogueEntry {
   readonly definition: Definition;
   readonly yaml: string;
-  readonly outline: Outline;
+  /** Null where an old revision is no valid test any more. */
+  readonly outline: Outline | null;
   readonly comment: string;
   readonly created_at: string;
 }
@@ -128,43 +129,4 @@ export interface HistoryFile {
 
 export interface Imported {
   readonly imported: readonly { readonly name: string; readonly id: string; readonly action: string }[];
-}
-
-export interface PredictionReason {
-  readonly code: string;
-  readonly text: string;
-  readonly severity: string;
-  readonly block: number | null;
-  readonly time_s: number | null;
-}
-
-export interface Margin {
-  readonly detector: string;
-  readonly quantity: string;
-  readonly unit: string;
-  readonly threshold: number | null;
-  readonly extreme: number | null;
-  readonly margin: number | null;
-  readonly margin_share: number | null;
-  readonly time_s: number | null;
-  readonly block: number | null;
-  readonly predicted: boolean;
-}
-
-export interface Prediction {
-  readonly verdict: string;
-  readonly reasons: readonly PredictionReason[];
-  readonly duration_s: number;
-  readonly predicted_s: number;
-  readonly shortened: readonly { readonly path: string; readonly text: string }[];
-  readonly margins: readonly Margin[];
-  readonly peaks: Readonly<Record<string, number | null>>;
-  readonly computed_in_s: number;
-}
-
-/** A prediction that is not there yet. */
-export interface Computing {
-  readonly state: "computing";
-  readonly share: number | null;
-  readonly seconds_left: number | null;
 }
