@@ -6,21 +6,22 @@ from typing import Any
 from app.analysis.measurements import MEASUREMENTS
 from app.definitions.limits import RIG
 from app.documents.writing import to_data
-from app.prediction.simulation import Simulation
+from app.prediction.simulation import Simulating
 from app.settings import VERSION
 
 
-def account(simulation: Simulation) -> dict[str, Any]:
+def account(simulating: Simulating) -> dict[str, Any]:
     """What came of it, in types that JSON knows."""
-    run, judged = simulation.run, simulation.judged
+    through = simulating.through
+    judged = through.judged
     return {
-        "test": simulation.setup.definition.name,
-        "outcome": run.ending.outcome.value,
-        "reason": run.ending.reason,
+        "test": through.setup.definition.name,
+        "outcome": through.ending.outcome.value,
+        "reason": through.ending.reason,
         "verdict": judged.verdict.value,
-        "ticks": len(run.records),
-        "duration_s": len(run.records) * RIG.period_s,
-        "seed": simulation.setup.seed,
+        "ticks": through.ticks,
+        "duration_s": through.ticks * RIG.period_s,
+        "seed": through.setup.seed,
         "measurements": [
             {"name": name, "unit": MEASUREMENTS[name].unit, "value": _finite(value)}
             for name, value in judged.measurements.items()
@@ -28,6 +29,7 @@ def account(simulation: Simulation) -> dict[str, Any]:
         "acceptance": [
             {
                 "measurement": c.measurement,
+                "block": c.block,
                 "unit": c.unit,
                 "value": _finite(c.value),
                 "at_least": c.at_least,
@@ -38,14 +40,15 @@ def account(simulation: Simulation) -> dict[str, Any]:
         ],
         "events": [
             {"tick": e.tick, "time_s": e.time_s, "kind": e.kind, "code": e.code, "text": e.text}
-            for e in run.events
+            for e in through.events
         ],
+        "prediction": simulating.prediction().model_dump(mode="json"),
     }
 
 
-def metadata(simulation: Simulation) -> dict[str, Any]:
+def metadata(simulating: Simulating) -> dict[str, Any]:
     """What its file is to remember: everything that it was made with, and what came of it."""
-    setup = simulation.setup
+    setup = simulating.through.setup
     return {
         "clock": "virtual",
         "test_name": setup.definition.name,
@@ -53,10 +56,9 @@ def metadata(simulation: Simulation) -> dict[str, Any]:
         "controller": to_data(setup.controller),
         "interlocks": to_data(setup.interlocks),
         "rig": setup.rig.model_dump(mode="json"),
-        "seed": setup.seed,
         "software_version": VERSION,
         "period_ns": round(RIG.period_s * 1e9),
-        **account(simulation),
+        **account(simulating),
     }
 
 

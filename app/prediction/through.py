@@ -1,7 +1,7 @@
 """A definition run to its end on the virtual rig and measured on the way, with memory that does not grow."""
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,8 +19,6 @@ from app.recording.outcome import Ending, Outcome
 
 KEPT_S = 600.0  # of force and displacement: 20 MB
 KEPT_TICKS = round(KEPT_S / RIG.period_s)
-
-Sink = Callable[[Records], None]  # is given the ticks of the run, (n,) TELEMETRY at a time
 
 
 @dataclass(frozen=True)
@@ -58,43 +56,65 @@ def series_of(watch: Watch) -> Series:
     return Series(watch.force_n[:kept], watch.displacement_m[:kept])
 
 
-def run_through(
-    setup: Setup, progress: Progress = ignore, sink: Sink | None = None
-) -> Through | Refusal:
-    """Pressurise the virtual rig, run the test to its end and measure it.
+class Passage:
+    """A run on the virtual rig that is under way: take its chunks, then ask what it amounts to."""
 
-    A test that asks for a comparison is run with the next seed before. Refused where this rig cannot be made
-    ready or cannot run it; an exception in `progress` or `sink` ends it.
+    def __init__(self, play: Play, reference: Predicted | None, progress: Progress) -> None:
+        setup = play.setup
+        self._play = play
+        self._progress = progress
+        self._measuring = measuring(
+            setup.definition, RIG.period_s, setup.controller.valve_limit, reference
+        )
+        self._ticks = 0
+
+    def chunks(self) -> Iterator[Records]:
+        """The ticks of the run, (n,) TELEMETRY at a time."""
+        for chunk in self._play.chunks(self._progress):
+            self._measuring.take(chunk)
+            self._ticks += len(chunk)
+            yield chunk
+
+    def result(self) -> Through:
+        """What it amounts to, once all chunks have been taken."""
+        play = self._play
+        completed = play.ending.outcome is Outcome.COMPLETED
+        measured = self._measuring.result()
+        judged = judge_measured(play.setup.definition, measured, completed=completed)
+        return Through(play.setup, self._ticks, play.watch, tuple(play.events), play.ending, judged)
+
+
+def begin(setup: Setup, progress: Progress = ignore) -> Passage | Refusal:
+    """Pressurise the virtual rig and load the test, ready to run it.
+
+    A test that asks for a comparison is run with the next seed first. Refused where this rig cannot be made
+    ready or cannot have the test; an exception in `progress` ends whatever is under way.
     """
-    reference = None
-    shares = 1.0
-    if needs_reference(setup.definition):
-        shares = 0.5
-        reference = _reference(setup, lambda share: progress(0.5 * share))
+    if not needs_reference(setup.definition):
+        play = made_ready(setup, KEPT_TICKS)
+        return play if isinstance(play, Refusal) else Passage(play, None, progress)
+    reference = _reference(setup, lambda share: progress(0.5 * share))
     play = made_ready(setup, KEPT_TICKS)
     if isinstance(play, Refusal):
         return play
-    measure = measuring(
-        setup.definition, RIG.period_s, setup.controller.valve_limit, reference, None
-    )
-    ticks = 0
-    for chunk in play.chunks(lambda share: progress(1.0 - shares + shares * share)):
-        measure.take(chunk)
-        ticks += len(chunk)
-        if sink is not None:
-            sink(chunk)
-    completed = play.ending.outcome is Outcome.COMPLETED
-    judged = judge_measured(setup.definition, measure.result(), completed=completed)
-    return Through(setup, ticks, play.watch, tuple(play.events), play.ending, judged)
+    return Passage(play, reference, lambda share: progress(0.5 + 0.5 * share))
+
+
+def run_through(setup: Setup, progress: Progress = ignore) -> Through | Refusal:
+    """Run the test to its end, keeping no more than what it amounts to."""
+    passage = begin(setup, progress)
+    if isinstance(passage, Refusal):
+        return passage
+    for _ in passage.chunks():
+        pass
+    return passage.result()
 
 
 def _reference(setup: Setup, progress: Progress) -> Predicted | None:
-    other = Setup(setup.definition, setup.rig, setup.controller, setup.interlocks, setup.seed + 1)
-    play = made_ready(other, KEPT_TICKS)
+    play = made_ready(replace(setup, seed=setup.seed + 1), KEPT_TICKS)
     if not isinstance(play, Play):
         return None
     for _ in play.chunks(progress):
         pass
-    if play.ending.outcome is not Outcome.COMPLETED:
-        return None
-    return Predicted(series_of(play.watch).chunks())
+    completed = play.ending.outcome is Outcome.COMPLETED
+    return Predicted(series_of(play.watch).chunks()) if completed else None

@@ -23,6 +23,7 @@ blocks:
 acceptance:
   - {measurement: force_error_rms_n, at_most: 200}
 """
+SHAKE = "harmonic, amplitude_n: 49000, frequency_hz: 60, cycles: 20"
 
 
 def _run(*arguments: object) -> Result:
@@ -197,11 +198,25 @@ def test_bad_options_end_with_2_before_anything_runs(
     assert result.stdout == ""
 
 
-def test_too_long_a_simulation_is_refused(test_file: Path) -> None:
-    test_file.write_text(GOOD.replace("duration_s: 0.2", "duration_s: 3600"))
+def test_the_margins_and_the_prediction_s_verdict_are_printed(test_file: Path) -> None:
+    printed = _run("simulate", test_file).stdout
+    assert "supply_pressure" in printed
+    assert "Only the live rig can tell" in printed
+    assert "Prediction: clear" in printed
+    prediction = _json(_run("simulate", test_file, "--json"))["prediction"]
+    assert prediction["verdict"] == "clear"
+    assert prediction["shortened"] == []
+    force = next(m for m in prediction["margins"] if m["detector"] == "force")
+    assert force["margin"] == pytest.approx(55e3 - force["extreme"])
+    assert 1000 < force["extreme"] < 1100
+
+
+def test_a_test_that_trips_says_which_interlock_and_where(test_file: Path) -> None:
+    test_file.write_text(GOOD.replace("hold, force_n: 1000, duration_s: 0.2", SHAKE))
     result = _run("simulate", test_file)
-    assert result.exit_code == 2
-    assert "must last at most 1,800 s" in result.stderr
+    assert result.exit_code == 3
+    assert "Prediction: refused" in result.stdout
+    assert "in block 1 at" in result.stdout
 
 
 def test_help_imports_nothing_that_is_slow() -> None:

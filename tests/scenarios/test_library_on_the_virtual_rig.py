@@ -12,7 +12,8 @@ from app.definitions.library import library, library_text
 from app.definitions.outline import outline
 from app.definitions.reading import definition_from, parse_definition
 from app.interlocks.defaults import default_interlocks
-from app.prediction.simulation import Setup, Simulation, simulate
+from app.prediction.setup import Setup
+from app.prediction.simulation import Simulation, simulate
 from app.recording.outcome import Outcome
 from rtcore.rig.parameters import load_rig
 
