@@ -6,14 +6,16 @@ from typing import Annotated, cast
 from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
-from app.histories.store import Store
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
+from app.histories.store import Store
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
+from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.runs.starting import Starter
+from app.storage.service import Storage
 from app.wiring import Console
 
 
@@ -53,8 +55,16 @@ def _runs(this: ThisConsole) -> Runs:
     return this.runs
 
 
+def _results(this: ThisConsole) -> Results:
+    return this.results
+
+
 def _run_windows(this: ThisConsole) -> RunWindows:
     return this.run_windows
+
+
+def _storage(this: ThisConsole) -> Storage:
+    return this.storage
 
 
 def _starter(this: ThisConsole) -> Starter:
@@ -68,5 +78,7 @@ CommandThreads = Annotated[Executor, Depends(_command_threads)]
 CatalogueService = Annotated[Catalogue, Depends(_catalogue)]
 LibraryService = Annotated[Library, Depends(_library)]
 RunsService = Annotated[Runs, Depends(_runs)]
+ResultsService = Annotated[Results, Depends(_results)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
+StorageService = Annotated[Storage, Depends(_storage)]
 StarterService = Annotated[Starter, Depends(_starter)]

@@ -41,6 +41,7 @@ class Code(StrEnum):
     INVALID_BANK = "invalid_bank"
     NO_PROGRAM = "no_program"
     BUSY = "busy"
+    NO_SPACE = "no_space"
     DATABASE_UNAVAILABLE = "database_unavailable"
     INTERNAL = "internal"
 

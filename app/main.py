@@ -30,6 +30,7 @@ from app.security import Guard, known_hosts
 from app.serving import CannotServe, bind, check, hold_data_folder, url_of
 from app.settings import VERSION, Settings
 from app.static_files import serve_console
+from app.storage.router import router as storage_router
 from app.wiring import Console
 
 _LONGEST_FRAME = 16_384  # of a browser's WebSocket message
@@ -74,6 +75,7 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         histories_router,
         runs_router,
         samples_router,
+        storage_router,
         live_router,
     ):
         app.include_router(router)

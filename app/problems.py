@@ -49,6 +49,7 @@ STATUS: Mapping[Code, int] = {
     Code.INVALID_BANK: 422,
     Code.NO_PROGRAM: 409,
     Code.BUSY: 409,
+    Code.NO_SPACE: 409,
     Code.DATABASE_UNAVAILABLE: 503,
     Code.INTERNAL: 500,
 }

@@ -2,6 +2,7 @@
 
 import logging
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
@@ -22,11 +23,15 @@ from app.recording.recovery import close_orphans, sweep
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.runs.ledger import Ledger
+from app.runs.measuring import measure
 from app.runs.plans import Plans
+from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.runs.starting import Frozen, Starter
 from app.settings import Settings
+from app.storage.service import Storage, StorageSettings
+from app.storage.watcher import Watcher
 from rtcore.codes import Opcode
 
 _log = logging.getLogger(__name__)
@@ -45,7 +50,9 @@ class Console:
         )
         self.database = Database(settings.database_address)
         self.histories = Store(settings.histories_dir)
-        self._clerk = Clerk(settings.runs_dir, Ledger(self.database, self._runs_changed))
+        measuring = partial(measure, histories=self.histories)
+        ledger = Ledger(self.database, settings.runs_dir, measuring, self._runs_changed)
+        self._clerk = Clerk(settings.runs_dir, ledger)
         self.recorder = Recorder(settings.runs_dir, self._clerk)
         block = block_path(settings.data_dir)
         self.link = Link(LoopCommand.of(settings, block), self.recorder.follow, self._configure)
@@ -56,6 +63,15 @@ class Console:
         self.catalogue = Catalogue(self.database, reader)
         self.library = Library(self.database, reader)
         self.runs = Runs(self.database, settings.runs_dir)
+        self.results = Results(self.database, settings.runs_dir, self.histories)
+        kept = StorageSettings(settings.runs_dir, self.period_s(), settings.reserve_bytes)
+        self.storage = Storage(kept, self.database, self.recorder.state)
+        self._watcher = Watcher(
+            self.storage,
+            self.recorder.state,
+            self.recorder.stopped_because,
+            lambda: self.link.ask(Opcode.STOP),
+        )
         self.run_windows = RunWindows(self.database, settings.runs_dir)
         self.starter = Starter(
             self.database,
@@ -88,9 +104,12 @@ class Console:
         sweep(self.settings.runs_dir, self._clerk)
         close_orphans(self.settings.runs_dir, self._clerk, life.name if life else None)
         self.recorder.start()
+        self.storage.retention.finish_removing()
+        self._watcher.start()
 
     def close(self) -> None:
         """Take the load off, depressurise, end the loop, write down what was recorded."""
+        self._watcher.close()
         self.link.take_load_off()
         self.link.end_loop()
         self.recorder.stop()

@@ -3,7 +3,8 @@
 from alembic import context
 
 import app.catalogue.models
-import app.runs.models  # noqa: F401
+import app.runs.models
+import app.storage.models  # noqa: F401
 from app.db import Base
 
 context.configure(

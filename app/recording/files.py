@@ -12,10 +12,11 @@ from app.recording.outcome import Ending
 from app.recording.overview import write_overview
 from app.recording.parquet import row_groups, write_run
 from app.recording.parts import part_paths, read_parts
-from app.recording.run_file import Recorded
+from app.recording.run_file import STOPPED_BECAUSE, Recorded
 
 _log = logging.getLogger(__name__)
-_OF_A_RUN_UNDER_WAY = ("part-*.arrows", "part-*.index", "overview-*.rows")
+_OF_A_RUN_UNDER_WAY = ("part-*.arrows", "part-*.index", "overview-*.rows", STOPPED_BECAUSE)
+_OF_EVERY_TICK = ("run.parquet", "overview-*.bin", "predicted.parquet", "part-*.damaged")
 
 
 def parquet_path(folder: Path) -> Path:
@@ -67,7 +68,16 @@ def with_overview(folder: Path, batches: Iterable[Any]) -> Iterator[Any]:
 
 def remove_parts(folder: Path) -> None:
     """Remove the parts of a run whose file is in place, and what was made of them."""
-    for pattern in _OF_A_RUN_UNDER_WAY:
+    _remove(folder, _OF_A_RUN_UNDER_WAY)
+
+
+def remove_samples(folder: Path) -> None:
+    """Remove all that a run that is over has of every tick; what was reduced of it stays."""
+    _remove(folder, (*_OF_EVERY_TICK, *_OF_A_RUN_UNDER_WAY))
+
+
+def _remove(folder: Path, patterns: Iterable[str]) -> None:
+    for pattern in patterns:
         for path in folder.glob(pattern):
             path.unlink(missing_ok=True)
 

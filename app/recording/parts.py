@@ -148,7 +148,9 @@ def _as_they_are(path: Path, offset: int) -> Iterator[Any]:  # raises where the 
 def _verified(path: Path, offset: int) -> Iterator[Any]:
     with pa.OSFile(str(path)) as file:  # read, not mapped: a day of it must not fill the memory
         source: Any = file
-        if offset:  # only a stream hands out checksums: make one of the schema and what is asked for
+        if (
+            offset
+        ):  # only a stream hands out checksums: make one of the schema and what is asked for
             pa.ipc.read_message(file)
             head = file.tell()
             file.seek(0)

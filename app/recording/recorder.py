@@ -19,12 +19,14 @@ MOST_FAILURES = 5
 
 @dataclass(frozen=True)
 class RecorderState:
-    """What the console shows of the recorder."""
+    """What the console shows of the recorder; of a run under way, its number and recorded ticks."""
 
     recording: bool
     lost_ticks: int
     size_bytes: int
     trouble: str | None
+    run_id: int = 0
+    ticks: int = 0
 
 
 class Recorder:
@@ -63,7 +65,15 @@ class Recorder:
         trouble = tape.trouble if tape is not None else None
         if file is None:
             return RecorderState(False, 0, 0, trouble)
-        return RecorderState(True, file.missing_ticks, file.size_bytes, trouble)
+        ticks = file.extent.ticks
+        return RecorderState(True, file.missing_ticks, file.size_bytes, trouble, file.run_id, ticks)
+
+    def stopped_because(self, run_id: int, reason: str) -> None:
+        """The console is about to stop this run for a reason of its own; raises `OSError`."""
+        tape = self._tape
+        file = tape.current if tape is not None else None
+        if file is not None and file.run_id == run_id:
+            file.stopped_because(reason)
 
     def _run(self) -> None:
         while (life := self._lives.get()) is not None:

@@ -11,8 +11,10 @@ import numpy.typing as npt
 from app.link.events import LoopEvent
 from app.recording.extent import Extent, extent_of
 from app.recording.live_overview import LiveOverview
-from app.recording.outcome import last_tick_by_events
+from app.recording.outcome import Ending, Outcome, ending_of, last_tick_by_events
 from app.recording.parts import PartWriter
+
+STOPPED_BECAUSE = "stopped-because.txt"  # in a run's folder, until the run is in the book
 
 
 class Recorded(NamedTuple):
@@ -94,6 +96,23 @@ class RunFile:
             return Recorded(-1, -1, 0, 0)
         missing = last - self.began_at + 1 - self.extent.ticks
         return Recorded(self.began_at, last, self.extent.ticks, missing)
+
+    def stopped_because(self, reason: str) -> None:
+        """The console itself stops this run, and why: kept beside the samples. Raises `OSError`."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        (self.folder / STOPPED_BECAUSE).write_text(reason)
+
+    def ending(self) -> Ending:
+        """How it ended, by its events; of a stop that the console gave, with its reason."""
+        ending = ending_of(self.events)
+        if ending.outcome is not Outcome.STOPPED:
+            return ending
+        try:
+            return Ending(
+                ending.outcome, (self.folder / STOPPED_BECAUSE).read_text() or ending.reason
+            )
+        except OSError:
+            return ending
 
     def abandon_part(self) -> None:
         """Begin a new part with the next records: the present one may be torn, or is done."""

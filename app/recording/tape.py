@@ -12,7 +12,7 @@ import numpy.typing as npt
 from app.link.events import EventReader, LoopEvent
 from app.link.life import Life
 from app.recording.clerk import Clerk
-from app.recording.outcome import LOOP_ENDED, Outcome, ending_of
+from app.recording.outcome import LOOP_ENDED, Outcome
 from app.recording.run_file import RunFile
 from rtcore.supervise import RUN_TAIL_S
 
@@ -68,7 +68,7 @@ class Tape:
         file, self.current = self.current, None
         if file is not None:
             file.abandon_part()
-            ending = ending_of(file.events)
+            ending = file.ending()
             tripped = ending.outcome is Outcome.TRIPPED
             recorded = file.recorded(self._tail_ticks)
             self._clerk.ended(file.run_id, recorded, ending if tripped else LOOP_ENDED)
@@ -148,5 +148,5 @@ class Tape:
     def _hand_over(self) -> None:
         """Give the runs that have ended to the clerk."""
         for file in self._leaving:
-            self._clerk.ended(file.run_id, file.recorded(self._tail_ticks), ending_of(file.events))
+            self._clerk.ended(file.run_id, file.recorded(self._tail_ticks), file.ending())
         self._leaving = []

@@ -10,7 +10,7 @@ from app.errors import Code, Fault, Refusal
 from app.recording.samples import Samples, open_samples
 from app.runs import repository
 from app.runs.envelope import Envelope, Floats, envelope
-from app.runs.models import Run
+from app.runs.no_data import no_data
 from app.runs.schemas import Band, RunSamples
 from rtcore.channels import CHANNEL
 
@@ -40,7 +40,7 @@ class RunWindows:
             if run is None:
                 return Refusal(Code.UNKNOWN_RUN, f"There is no run {run_id}")
             first_tick, period_s = run.first_tick, run.period_ns * 1e-9
-            refusal = _no_data(run)
+            refusal = no_data(run)
         samples = open_samples(self._runs_dir / str(run_id))
         if samples is None:
             return refusal
@@ -84,10 +84,6 @@ def _numbers(values: Floats) -> list[float | None]:
     for place in np.flatnonzero(~np.isfinite(values)).tolist():
         numbers[place] = None
     return numbers
-
-
-def _no_data(run: Run) -> Refusal:
-    return Refusal(Code.NO_DATA, f"Run {run.id} has no samples")
 
 
 def _unknown_channels(names: Sequence[str]) -> Refusal:

@@ -1,0 +1,1 @@
+"""Storage: room on the disk, how long samples are kept, backups."""
