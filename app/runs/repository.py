@@ -3,14 +3,16 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from sqlalchemy import select, update
+from sqlalchemy import delete, insert, select, update
 from sqlalchemy.dialects.postgresql import insert as postgresql_insert
 from sqlalchemy.dialects.sqlite import insert as sqlite_insert
 from sqlalchemy.orm import Session
 
 from app.db import Base
 from app.documents.canonical import fingerprint
-from app.runs.models import Document, Run, RunEvent
+from app.runs import finding
+from app.runs.finding import Sought
+from app.runs.models import Document, Run, RunCriterion, RunEvent, RunMeasurement, RunTag
 
 _INSERT: dict[str, Any] = {"sqlite": sqlite_insert, "postgresql": postgresql_insert}
 
@@ -20,10 +22,25 @@ def get(session: Session, run_id: int) -> Run | None:
     return session.get(Run, run_id)
 
 
-def page(session: Session, limit: int, before: int | None) -> Sequence[Run]:
-    """The newest runs, or those before a number; newest first."""
-    query = select(Run).order_by(Run.id.desc()).limit(limit)
-    return session.scalars(query if before is None else query.where(Run.id < before)).all()
+def to_change(session: Session, run_id: int) -> Run | None:
+    """A run that nobody else changes until the end of the transaction."""
+    return session.get(Run, run_id, with_for_update=True)
+
+
+def page(session: Session, sought: Sought, limit: int, before: int | None) -> Sequence[Run]:
+    """The newest runs among those that are sought, or those before a number; newest first."""
+    found = finding.ids(session, sought, before, limit)
+    return session.scalars(select(Run).where(Run.id.in_(found)).order_by(Run.id.desc())).all()
+
+
+def tags(session: Session) -> list[str]:
+    """Every tag that a run has, in order."""
+    return finding.each(session, RunTag.tag)
+
+
+def operators(session: Session) -> list[str]:
+    """Everybody who is noted as the operator of a run, in order."""
+    return [operator for operator in finding.each(session, Run.operator) if operator]
 
 
 def without_outcome(session: Session) -> Sequence[Run]:
@@ -46,6 +63,31 @@ def events(session: Session, run_id: int) -> Sequence[RunEvent]:
 def add_events(session: Session, rows: Iterable[dict[str, object]]) -> None:
     """Add events. One whose run and sequence are there already stays as it is."""
     _insert_new(session, RunEvent, list(rows))
+
+
+def set_measured(
+    session: Session,
+    run_id: int,
+    measurements: Sequence[dict[str, Any]],
+    criteria: Sequence[dict[str, Any]],
+) -> None:
+    """Write down what was measured of a run and how it was judged, in place of what is there."""
+    for table, rows in ((RunMeasurement, measurements), (RunCriterion, criteria)):
+        session.execute(delete(table).where(table.run_id == run_id))
+        if rows:
+            session.execute(insert(table), rows)
+
+
+def measurements(session: Session, run_id: int) -> Sequence[RunMeasurement]:
+    """What was measured of a run, block by block; the run as a whole first."""
+    query = select(RunMeasurement).where(RunMeasurement.run_id == run_id)
+    return session.scalars(query.order_by(RunMeasurement.block)).all()
+
+
+def criteria(session: Session, run_id: int) -> Sequence[RunCriterion]:
+    """How a run was judged, in the order of its definition."""
+    query = select(RunCriterion).where(RunCriterion.run_id == run_id)
+    return session.scalars(query.order_by(RunCriterion.position)).all()
 
 
 def freeze(session: Session, body: Any) -> int:

@@ -3,7 +3,7 @@
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field, StringConstraints
 
 from app.recording.outcome import Outcome
 from app.runs.models import Run, RunEvent
@@ -14,6 +14,15 @@ SHOWN_NOTES = 200  # in a list
 Tag = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=50)]
 Operator = Annotated[str, StringConstraints(strip_whitespace=True, max_length=100)]
 Notes = Annotated[str, Field(max_length=LONGEST_NOTES)]
+
+
+def _of_our_time(moment: datetime) -> datetime:
+    if not 1970 <= moment.year < 9999:  # in UTC it is a year that can be counted
+        raise ValueError("must be a time between 1970 and 9998")
+    return moment
+
+
+Moment = Annotated[AwareDatetime, AfterValidator(_of_our_time)]
 
 
 def _each_once(tags: tuple[str, ...]) -> tuple[str, ...]:
@@ -34,6 +43,17 @@ class RunStart(BaseModel):
     operator: Operator = ""
     notes: Notes = ""
     tags: Tags = ()
+
+
+class RunAnnotation(BaseModel):
+    """What to note of a run, on top of `annotation` and nothing newer; what is null stays."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    annotation: Annotated[int, Field(ge=0, le=2**31 - 1)]
+    notes: Notes | None = None
+    tags: Tags | None = None
+    operator: Operator | None = None
 
 
 class RunSummary(BaseModel):
@@ -82,6 +102,7 @@ class RunDetail(RunSummary):
     rig: dict[str, Any]
     conditions: list[dict[str, Any]]
     software_version: str
+    samples_removed_at: datetime | None  # by retention: the rest stays
 
     @staticmethod
     def of(run: Run) -> "RunDetail":

@@ -6,8 +6,11 @@ from app.db import Database
 from app.errors import Code, Refusal
 from app.recording.files import parquet_path
 from app.runs import repository
-from app.runs.models import Run
+from app.runs.finding import Sought
+from app.runs.models import Run, RunTag
+from app.runs.no_data import no_data
 from app.runs.schemas import (
+    RunAnnotation,
     RunDetail,
     RunEventOut,
     RunEvents,
@@ -23,10 +26,10 @@ class Runs:
         self._database = database
         self._runs_dir = runs_dir
 
-    def page(self, limit: int, before: int | None) -> RunPage:
-        """The newest runs, or those before a number."""
+    def page(self, sought: Sought, limit: int, before: int | None) -> RunPage:
+        """The newest runs among those that are sought, or those before a number."""
         with self._database.reading() as session:
-            runs = repository.page(session, limit + 1, before)
+            runs = repository.page(session, sought, limit + 1, before)
             shown = [RunSummary.of(run) for run in runs[:limit]]
         return RunPage(runs=shown, next=shown[-1].id if len(runs) > limit else None)
 
@@ -35,6 +38,29 @@ class Runs:
         with self._database.reading() as session:
             run = repository.get(session, run_id)
             return _unknown(run_id) if run is None else RunDetail.of(run)
+
+    def tags(self) -> list[str]:
+        """Every tag that a run has."""
+        with self._database.reading() as session:
+            return repository.tags(session)
+
+    def operators(self) -> list[str]:
+        """Everybody who is noted as an operator."""
+        with self._database.reading() as session:
+            return repository.operators(session)
+
+    def annotate(self, run_id: int, noted: RunAnnotation) -> RunDetail | Refusal:
+        """Note something about a run, on top of what was noted before and nothing else."""
+        with self._database.writing() as session:
+            run = repository.to_change(session, run_id)
+            if run is None:
+                return _unknown(run_id)
+            if noted.annotation != run.annotation:
+                return _conflict(run, noted.annotation)
+            if _note(run, noted):
+                run.annotation += 1
+                session.flush()
+            return RunDetail.of(run)
 
     def events(self, run_id: int) -> RunEvents | Refusal:
         """What the loop reported during a run."""
@@ -53,7 +79,7 @@ class Runs:
         if run.outcome is None:
             return Refusal(Code.RUN_UNDER_WAY, f"Run {run_id} is still under way: wait for its end")
         path = parquet_path(self._runs_dir / str(run_id))
-        return path if path.exists() else _no_data(run_id)
+        return path if path.exists() else no_data(run)
 
     def _row(self, run_id: int) -> Run | Refusal:
         with self._database.reading() as session:
@@ -64,9 +90,26 @@ class Runs:
             return run
 
 
+def _note(run: Run, noted: RunAnnotation) -> bool:
+    """Whether that changed anything."""
+    before = (run.notes, run.operator, list(run.tags))
+    run.notes = run.notes if noted.notes is None else noted.notes
+    run.operator = run.operator if noted.operator is None else noted.operator
+    if noted.tags is not None and list(noted.tags) != before[2]:
+        kept = {row.tag: row for row in run.tag_rows}
+        run.tag_rows = [kept.get(tag) or RunTag(tag=tag) for tag in noted.tags]
+    return before != (run.notes, run.operator, list(run.tags))
+
+
+def _conflict(run: Run, annotation: int) -> Refusal:
+    now = {"notes": run.notes, "operator": run.operator, "tags": list(run.tags)}
+    return Refusal(
+        Code.EDIT_CONFLICT,
+        f"Somebody changed the notes, tags or operator of run {run.id} in the meantime: "
+        "look at what they are now, then save on top of that",
+        about={"current_annotation": run.annotation, "given_annotation": annotation, "now": now},
+    )
+
+
 def _unknown(run_id: int) -> Refusal:
     return Refusal(Code.UNKNOWN_RUN, f"There is no run {run_id}")
-
-
-def _no_data(run_id: int) -> Refusal:
-    return Refusal(Code.NO_DATA, f"Run {run_id} has no samples")

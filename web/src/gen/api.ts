@@ -103,6 +103,9 @@ export interface paths {
         /**
          * List Runs
          * @description The newest runs first; `next` of a page is `before` of the page after it.
+         *
+         *     Every word of `search` is the beginning of a word in test, notes, tags, operator or reason, or
+         *     of the run's number.
          */
         get: operations["listRuns"];
         put?: never;
@@ -111,6 +114,46 @@ export interface paths {
          * @description Start a test. Answers once the loop has begun it.
          */
         post: operations["startRun"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/operators": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Operators
+         * @description Everybody who is noted as the operator of a run, in order.
+         */
+        get: operations["listRunOperators"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/tags": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Tags
+         * @description Every tag that a run has, in order.
+         */
+        get: operations["listRunTags"];
+        put?: never;
+        post?: never;
         delete?: never;
         options?: never;
         head?: never;
@@ -134,7 +177,11 @@ export interface paths {
         delete?: never;
         options?: never;
         head?: never;
-        patch?: never;
+        /**
+         * Annotate Run
+         * @description Change notes, tags or operator; refused where somebody else did in the meantime.
+         */
+        patch: operations["annotateRun"];
         trace?: never;
     };
     "/api/v1/runs/{run_id}/data.parquet": {
@@ -189,6 +236,66 @@ export interface paths {
          * @description Least and greatest value in each of at most `points` stretches: every sample counts.
          */
         get: operations["getRunSamples"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/storage": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Storage
+         * @description The disk, what runs use of it, and how long samples are kept.
+         */
+        get: operations["getStorage"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/storage/retention": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * Change Retention
+         * @description Give another rule. It is applied once a day, and at once where `apply` is true.
+         */
+        put: operations["changeRetention"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/storage/retention/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Preview Retention
+         * @description Which runs' samples a rule would remove now; the rule in force, where none is given.
+         */
+        get: operations["previewRetention"];
         put?: never;
         post?: never;
         delete?: never;
@@ -579,7 +686,7 @@ export interface components {
          * @description Every reason to refuse. Programs match on these; sentences may change.
          * @enum {string}
          */
-        Code: "invalid_request" | "not_found" | "method_not_allowed" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "no_program" | "busy" | "database_unavailable" | "internal";
+        Code: "invalid_request" | "not_found" | "method_not_allowed" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "no_program" | "busy" | "no_space" | "database_unavailable" | "internal";
         /**
          * CommandDone
          * @description The loop has taken the command in this tick.
@@ -935,6 +1042,22 @@ export interface components {
             name: string;
         };
         /**
+         * Leaving
+         * @description A run whose samples go, and why.
+         */
+        Leaving: {
+            /** Bytes */
+            bytes: number;
+            /** Ended At */
+            ended_at: string | null;
+            /** Id */
+            id: number;
+            /** Reason */
+            reason: string;
+            /** Test Name */
+            test_name: string;
+        };
+        /**
          * Limits
          * @description What the detectors in force allow; the supply's is what the pump gives. Null for no limit.
          */
@@ -1096,6 +1219,51 @@ export interface components {
             trouble: string | null;
         };
         /**
+         * RetentionChange
+         * @description A new rule; `based_on` is the revision that it was made from, `apply` does it at once.
+         */
+        RetentionChange: {
+            /**
+             * Apply
+             * @default false
+             */
+            apply: boolean;
+            /** Based On */
+            based_on: number;
+            /** Keep Bytes */
+            keep_bytes: number | null;
+            /** Keep Days */
+            keep_days: number | null;
+            /** Keep Tags */
+            keep_tags: string[];
+        };
+        /**
+         * RetentionOut
+         * @description The rule in force; null for no limit. A run with one of `keep_tags` keeps its samples.
+         */
+        RetentionOut: {
+            /** Applied At */
+            applied_at: string | null;
+            /** Keep Bytes */
+            keep_bytes: number | null;
+            /** Keep Days */
+            keep_days: number | null;
+            /** Keep Tags */
+            keep_tags: string[];
+            /** Revision */
+            revision: number;
+        };
+        /**
+         * RetentionPreview
+         * @description What the rule removes now. The runs stay in the book, without their samples.
+         */
+        RetentionPreview: {
+            /** Bytes */
+            bytes: number;
+            /** Runs */
+            runs: components["schemas"]["Leaving"][];
+        };
+        /**
          * RevisionSummary
          * @description A revision in the list.
          */
@@ -1137,6 +1305,20 @@ export interface components {
             run: components["schemas"]["RunProgress"] | null;
             /** Trips */
             trips: components["schemas"]["Trip"][];
+        };
+        /**
+         * RunAnnotation
+         * @description What to note of a run, on top of `annotation` and nothing newer; what is null stays.
+         */
+        RunAnnotation: {
+            /** Annotation */
+            annotation: number;
+            /** Notes */
+            notes?: string | null;
+            /** Operator */
+            operator?: string | null;
+            /** Tags */
+            tags?: string[] | null;
         };
         /**
          * RunDetail
@@ -1192,6 +1374,8 @@ export interface components {
             rig: {
                 [key: string]: unknown;
             };
+            /** Samples Removed At */
+            samples_removed_at: string | null;
             /** Software Version */
             software_version: string;
             /**
@@ -1390,6 +1574,32 @@ export interface components {
              */
             type: "status";
         };
+        /**
+         * StorageOut
+         * @description The disk, and what of it is used and left.
+         */
+        StorageOut: {
+            /** Bytes Per S */
+            bytes_per_s: number;
+            /** Free Bytes */
+            free_bytes: number;
+            /** Reserve Bytes */
+            reserve_bytes: number;
+            retention: components["schemas"]["RetentionOut"];
+            /** Seconds Left */
+            seconds_left: number | null;
+            state: components["schemas"]["StorageWord"];
+            /** Total Bytes */
+            total_bytes: number;
+            /** Used By Runs Bytes */
+            used_by_runs_bytes: number;
+        };
+        /**
+         * StorageWord
+         * @description Whether there is room.
+         * @enum {string}
+         */
+        StorageWord: "ok" | "low" | "full";
         /**
          * Subscribe
          * @description From the browser: the channels it wants, instead of those before.
@@ -1791,6 +2001,16 @@ export interface operations {
     listRuns: {
         parameters: {
             query?: {
+                /** @description beginnings of words */
+                search?: string;
+                test_id?: string | null;
+                tag?: string | null;
+                outcome?: components["schemas"]["Outcome"] | "under_way" | null;
+                verdict?: ("pass" | "fail" | "unset") | null;
+                operator?: string | null;
+                since?: string | null;
+                /** @description and not then */
+                until?: string | null;
                 limit?: number;
                 before?: number | null;
             };
@@ -1853,6 +2073,64 @@ export interface operations {
             };
         };
     };
+    listRunOperators: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": string[];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listRunTags: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": string[];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getRun: {
         parameters: {
             query?: never;
@@ -1863,6 +2141,41 @@ export interface operations {
             cookie?: never;
         };
         requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    annotateRun: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RunAnnotation"];
+            };
+        };
         responses: {
             /** @description Successful Response */
             200: {
@@ -1968,6 +2281,101 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunSamples"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getStorage: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StorageOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    changeRetention: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RetentionChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RetentionOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    previewRetention: {
+        parameters: {
+            query?: {
+                keep_days?: number | null;
+                keep_bytes?: number | null;
+                keep_tags?: string[] | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RetentionPreview"];
                 };
             };
             /** @description A problem document (RFC 9457) */
