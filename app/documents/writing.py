@@ -32,7 +32,19 @@ def to_data(model: BaseModel) -> dict[str, Any]:
 
 def to_yaml(model: BaseModel) -> str:
     """The document as YAML."""
-    return yaml.dump(to_data(model), Dumper=_Dumper, sort_keys=False, allow_unicode=True)
+    return data_to_yaml(to_data(model))
+
+
+def data_to_yaml(data: Any) -> str:
+    """Plain data as YAML."""
+    return yaml.dump(
+        data,
+        Dumper=_Dumper,
+        sort_keys=False,
+        allow_unicode=True,
+        default_flow_style=None,  # a block with nothing nested stands on one line
+        width=100,
+    )
 
 
 def to_json(model: BaseModel) -> str:

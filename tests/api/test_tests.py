@@ -172,6 +172,18 @@ def test_a_check_says_where_and_what_would_be_right(console: ConsoleProcess) -> 
     assert fault["limit"] < 1e12
 
 
+def test_a_check_turns_what_is_wrong_into_the_other_form_too(console: ConsoleProcess) -> None:
+    text = YAML.replace("rate_n_s: 1000", "rate_n_s: 1e12")
+    data = console.http.post("/tests/check", json={"yaml": text}).json()["definition"]
+    assert data["blocks"][0]["rate_n_s"] == 1e12
+    checked = console.http.post("/tests/check", json={"definition": data}).json()
+    (problem,) = checked["problems"]
+    line = checked["yaml"].splitlines()[problem["line"] - 1]
+    assert (checked["valid"], "1000000000000" in line) == (False, True)
+    for nonsense in ({"yaml": "a: ["}, {"yaml": "a: .inf"}, {"yaml": "7"}):
+        assert console.http.post("/tests/check", json=nonsense).json()["definition"] is None
+
+
 def test_a_library_goes_out_and_comes_back(console: ConsoleProcess) -> None:
     test = created(console, tags=["a", "b"])
     packed = console.http.get(f"/tests/library.zip?ids={test['id']},hold-50-kn").content
