@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { RunSamples } from "../live/types";
 import { FORCE } from "../units";
-import { bandData, bandExtent, bandFigure } from "./bands";
+import { bandData, bandExtent, bandFigure, place } from "./bands";
 
 const SAMPLES: RunSamples = {
   from_s: 0,
@@ -34,5 +34,14 @@ describe("bands", () => {
     expect(bandFigure(SAMPLES, "force_n", 0, FORCE)).toBe("−0.010 … 0.010");
     expect(bandFigure(SAMPLES, "force_n", 2, FORCE)).toBe("0.004");
     expect(bandFigure(SAMPLES, "force_n", 1, FORCE)).toBe("—");
+  });
+
+  it("are measured within the window only", () => {
+    expect(bandExtent(SAMPLES, ["force_n"], { from_s: 1, to_s: 3 })).toEqual({ low: 4, high: 4 });
+  });
+
+  it("are found by time, the nearest one", () => {
+    expect([-5, 0.4, 0.6, 1.9, 99].map((at_s) => place(SAMPLES, at_s))).toEqual([0, 0, 1, 2, 2]);
+    expect(place({ ...SAMPLES, time_s: [] }, 0)).toBeNull();
   });
 });

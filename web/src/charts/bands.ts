@@ -3,6 +3,7 @@
 import type uPlot from "uplot";
 import type { RunSamples } from "../live/types";
 import { figure, NOTHING, type Quantity } from "../units";
+import type { TimeWindow } from "./zoom";
 
 /** x, then minimum and maximum of each channel in turn; a channel that was not recorded is empty. */
 export function bandData(samples: RunSamples, channels: readonly string[]): uPlot.AlignedData {
@@ -14,15 +15,25 @@ export function bandData(samples: RunSamples, channels: readonly string[]): uPlo
   return [samples.time_s, ...columns];
 }
 
-/** Lowest and highest value over these channels; NaN where there is none. */
-export function bandExtent(samples: RunSamples, channels: readonly string[]): { low: number; high: number } {
+const ALWAYS: TimeWindow = { from_s: -Infinity, to_s: Infinity };
+
+/** Lowest and highest value of these channels within a window; NaN where there is none. */
+export function bandExtent(
+  samples: RunSamples,
+  channels: readonly string[],
+  { from_s, to_s }: TimeWindow = ALWAYS,
+): { low: number; high: number } {
   let low = Infinity;
   let high = -Infinity;
-  for (const channel of channels) {
-    const band = samples.channels[channel];
-    for (const value of band?.min ?? []) if (value !== null && value < low) low = value;
-    for (const value of band?.max ?? []) if (value !== null && value > high) high = value;
-  }
+  samples.time_s.forEach((time, i) => {
+    if (time < from_s || time > to_s) return;
+    for (const channel of channels) {
+      const band = samples.channels[channel];
+      const [least, most] = [band?.min[i], band?.max[i]];
+      if (typeof least === "number" && least < low) low = least;
+      if (typeof most === "number" && most > high) high = most;
+    }
+  });
   return low <= high ? { low, high } : { low: NaN, high: NaN };
 }
 
@@ -33,4 +44,16 @@ export function bandFigure(samples: RunSamples, channel: string, at: number, qua
   if (typeof low !== "number" || typeof high !== "number") return NOTHING;
   const text = figure(quantity, low, 1);
   return low === high ? text : `${text} … ${figure(quantity, high, 1)}`;
+}
+
+/** The place of the column nearest to a moment; null where there is none. */
+export function place({ time_s }: RunSamples, at_s: number): number | null {
+  let [low, high] = [0, time_s.length - 1];
+  if (high < 0) return null;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (time_s[middle]! <= at_s) low = middle;
+    else high = middle;
+  }
+  return Math.abs(time_s[low]! - at_s) <= Math.abs(time_s[high]! - at_s) ? low : high;
 }

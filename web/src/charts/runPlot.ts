@@ -4,9 +4,13 @@ import uPlot from "uplot";
 import type { RunSamples } from "../live/types";
 import { theme } from "../theme.svelte";
 import { quantityOf, TIME, withUnit } from "../units";
-import { bandData, bandExtent, bandFigure } from "./bands";
+import { bandData, bandExtent, bandFigure, place } from "./bands";
+import type { BandTrace } from "./bandPlot";
 import { colour } from "./colours";
+import { drawForeseen } from "./foreseen";
+import { listen } from "./gestures";
 import type { Readout } from "./livePlot";
+import { drawMarks, type Mark } from "./marks";
 import { axes, line, padding, SCALES } from "./options";
 import { steadyRange } from "./scale";
 import { colourOf, type ChartInfo, type SeriesInfo } from "./series";
@@ -20,6 +24,9 @@ export interface RunPlotEvents {
   /** A stretch of time was dragged over. */
   selected(window: TimeWindow): void;
   doubleClicked(): void;
+  /** Zoom around a moment; `again`: the same gesture goes on. */
+  zoomed(at_s: number, factor: number, again: boolean): void;
+  moved(by_s: number): void;
   /** How many points are worth fetching at the present width: two a pixel. */
   fits(points: number): void;
 }
@@ -31,7 +38,10 @@ export class RunPlot {
   private readonly quantity;
   private samples: RunSamples | null = null;
   private window: TimeWindow = { from_s: 0, to_s: 1 };
+  private marks: readonly Mark[] = [];
+  private foreseen: BandTrace | null = null;
   private settling = 0;
+  private deaf: () => void = () => undefined;
   private readonly ends: (() => void)[];
 
   constructor(
@@ -47,7 +57,7 @@ export class RunPlot {
     this.fit();
     const resizing = new ResizeObserver(() => this.resize());
     resizing.observe(host);
-    this.ends = [theme.onChange(() => this.rebuild()), () => resizing.disconnect()];
+    this.ends = [theme.onChange(() => this.rebuild()), () => resizing.disconnect(), () => this.deaf()];
   }
 
   destroy(): void {
@@ -63,10 +73,17 @@ export class RunPlot {
     this.draw();
   }
 
+  /** Marks to draw, and the predicted band to draw under what was measured. */
+  adorn(marks: readonly Mark[], foreseen: BandTrace | null): void {
+    this.marks = marks;
+    this.foreseen = foreseen;
+    this.plot.redraw(false);
+  }
+
   private draw(): void {
     const { samples, channels, window: shown } = this;
     if (!samples) return;
-    const { low, high } = bandExtent(samples, channels);
+    const { low, high } = bandExtent(samples, channels, shown);
     const { min, max } = steadyRange(null, low, high, 0, { ...this.info.scale, centred: false });
     this.plot.batch((u: uPlot) => {
       u.setData(bandData(samples, channels), false);
@@ -97,10 +114,26 @@ export class RunPlot {
         y: false,
         drag: { x: true, y: false, setScale: false, dist: LEAST_DRAG_PX },
         bind: { dblclick: () => () => (this.events.doubleClicked(), null) },
+        sync: { key: "run", setSeries: false },
       },
-      hooks: { setCursor: [() => this.readOut()], setSelect: [(plot) => this.select(plot)] },
+      hooks: {
+        drawAxes: [
+          (plot) => {
+            drawMarks(plot, this.marks);
+            if (this.foreseen) drawForeseen(plot, this.foreseen);
+          },
+        ],
+        setCursor: [() => this.readOut()],
+        setSelect: [(plot) => this.select(plot)],
+      },
     };
-    return new uPlot(options, [[], ...lines.map(() => [])], this.host);
+    const plot = new uPlot(options, [[], ...lines.map(() => [])], this.host);
+    this.deaf();
+    this.deaf = listen(plot.over, {
+      zoom: (at, factor, again) => this.events.zoomed(plot.posToVal(at, "x"), factor, again),
+      move: (by) => this.events.moved((-by / plot.over.clientWidth) * (this.window.to_s - this.window.from_s)),
+    });
+    return plot;
   }
 
   private select(plot: uPlot): void {
@@ -127,9 +160,9 @@ export class RunPlot {
   }
 
   private readOut(): void {
-    const { idx, left } = this.plot?.cursor ?? {};
+    const left = this.plot?.cursor.left ?? -1;
     const { samples } = this;
-    const at = samples && typeof idx === "number" && (left ?? -1) >= 0 ? idx : null;
+    const at = samples && left >= 0 ? place(samples, this.plot.posToVal(left, "x")) : null;
     this.readout.time.textContent = at === null ? "" : withUnit(TIME, samples?.time_s[at], 3);
     this.channels.forEach((channel, i) => {
       const field = this.readout.values[i];

@@ -7,8 +7,8 @@ describe("editing what the book says of a run", () => {
   it("sends only what was changed", () => {
     const draft = draftOf(READ);
     expect(isChanged(READ, draft)).toBe(false);
-    expect(changesOf(READ, { ...draft, tags: "pump,q1 , leak" })).toEqual({ tags: ["pump", "q1", "leak"] });
-    expect(changesOf(READ, { ...draft, tags: " pump  q1" })).toEqual({});
+    expect(changesOf(READ, { ...draft, tags: "pump,q1 , leak" })).toEqual({ tags: ["leak", "pump", "q1"] });
+    expect(changesOf(READ, { ...draft, tags: " q1 ,pump," })).toEqual({});
     expect(changesOf(READ, { ...draft, notes: "" })).toEqual({ notes: "" });
   });
 

@@ -26,7 +26,7 @@ export function changesOf(before: Annotation, draft: Draft): Partial<Annotation>
   const tags = tagsIn(draft.tags);
   return {
     ...(draft.operator.trim() === before.operator ? {} : { operator: draft.operator.trim() }),
-    ...(tags.join() === before.tags.join() ? {} : { tags }),
+    ...(tags.join() === [...before.tags].sort().join() ? {} : { tags }),
     ...(draft.notes === before.notes ? {} : { notes: draft.notes }),
   };
 }

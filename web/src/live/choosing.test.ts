@@ -1,8 +1,9 @@
 import { describe, expect, it } from "vitest";
-import { matching, ordered, tagsIn, tagsOf, type TestEntry } from "./choosing";
+import { matching, ordered, tagsIn, tagsOf } from "./choosing";
+import type { TestSummary } from "./types";
 
-const test = (id: string, more: Partial<TestEntry> = {}): TestEntry =>
-  ({ id, name: id, description: "", duration_s: 1, peak_force_n: 1, blocks: 1, ...more }) as TestEntry;
+const test = (id: string, more: Partial<TestSummary> = {}): TestSummary =>
+  ({ id, name: id, description: "", duration_s: 1, peak_force_n: 1, blocks: 1, tags: [], archived: false, last_run_at: null, ...more }) as TestSummary;
 
 const TESTS = [
   test("sweep-10", { name: "Sweep 10 kN", tags: ["pump", "q1"], last_run_at: "2026-11-20T10:00:00Z" }),
@@ -10,7 +11,7 @@ const TESTS = [
   test("step", { name: "Step", description: "Up and down", last_run_at: "2026-11-21T10:00:00Z" }),
   test("old", { archived: true, tags: ["gone"], last_run_at: "2026-11-22T10:00:00Z" }),
 ];
-const ids = (tests: readonly TestEntry[]): string[] => tests.map(({ id }) => id);
+const ids = (tests: readonly TestSummary[]): string[] => tests.map(({ id }) => id);
 
 describe("choosing a test", () => {
   it("finds every word, in name, description and tags", () => {
@@ -33,7 +34,7 @@ describe("choosing a test", () => {
   });
 
   it("reads tags as they are typed", () => {
-    expect(tagsIn(" pump, q1  pump,,x ")).toEqual(["pump", "q1", "x"]);
+    expect(tagsIn(" q1, pump 7,pump  7,,a ")).toEqual(["a", "pump 7", "q1"]);
     expect(tagsIn("  ")).toEqual([]);
   });
 });

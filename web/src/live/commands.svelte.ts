@@ -1,7 +1,6 @@
 // Giving commands. A refusal becomes a message; a Stop that was not delivered is said loudly.
 
 import { Problem, sendCommand, startRun } from "./api";
-import type { TestEntry } from "./choosing";
 import { entry } from "./entry.svelte";
 import { COMMANDS, refusal, type Intent } from "./operate";
 import { messages, textOf } from "./messages.svelte";
@@ -43,8 +42,8 @@ class Commands {
   }
 
   private async start(overriding: boolean): Promise<void> {
-    const { id, revision } = tests.chosen as TestEntry;
-    await startRun(id, { ...(revision === undefined ? {} : { revision }), ...entry.body(overriding) });
+    const { id, revision } = tests.chosen!;
+    await startRun(id, { revision, ...entry.body(overriding) });
     entry.started();
   }
 }

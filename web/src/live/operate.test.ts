@@ -7,14 +7,14 @@ import { modeWords } from "./words";
 
 const FRESH: Freshness = { stale: false, trouble: null, age_s: 0.05 };
 const LOST: Freshness = { stale: true, trouble: "link", age_s: 3 };
-const STEP: TestSummary = {
+const STEP = {
   id: "step-2-kn",
   name: "Step 2 kN",
   description: "",
   duration_s: 4,
   peak_force_n: 2000,
   blocks: 3,
-};
+} as TestSummary;
 
 const with_ = (chosen: TestSummary | null, gate: StartGate = OPEN): { chosen: TestSummary | null; gate: StartGate } => ({
   chosen,

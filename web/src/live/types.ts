@@ -20,23 +20,13 @@ export type ServerMessage =
   Hello | Schemas["StatusFrame"] | Schemas["EventFrame"] | Schemas["RunsChanged"] | Schemas["ErrorFrame"];
 
 export type TestSummary = Schemas["TestSummary"];
-export type Run = Schemas["RunSummary"] & Partial<BookEntry>;
-export type RunDetail = Schemas["RunDetail"] & Partial<BookEntry>;
-export type RunPage = { readonly runs: readonly Run[]; readonly next: number | null };
+export type Run = Schemas["RunSummary"];
+export type RunDetail = Schemas["RunDetail"];
+export type RunPage = Schemas["RunPage"];
 export type RunEvents = Schemas["RunEvents"];
 export type RunSamples = Schemas["RunSamples"];
 
 // ---- not generated yet ----
-
-export interface BookEntry {
-  readonly revision: number | null;
-  readonly operator: string;
-  readonly notes: string;
-  readonly tags: readonly string[];
-  readonly annotation: number;
-  readonly prediction_verdict: Verdict | null;
-  readonly override_reason: string | null;
-}
 
 export interface Permissive {
   readonly name: string;
