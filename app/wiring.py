@@ -16,6 +16,7 @@ from app.link.link import Link
 from app.link.paths import block_path
 from app.link.process import LoopCommand
 from app.live.broadcaster import Broadcaster
+from app.prediction.service import Predictions
 from app.presets import Presets
 from app.recording.clerk import Clerk
 from app.recording.recorder import Recorder
@@ -57,15 +58,16 @@ class Console:
         block = block_path(settings.data_dir)
         self.link = Link(LoopCommand.of(settings, block), self.recorder.follow, self._configure)
         self._plans = plans = Plans()
-        self.status = StatusReader(self.link, self.recorder, plans, presets.rig.supply.high_pa)
+        kept = StorageSettings(settings.runs_dir, self.period_s(), settings.reserve_bytes)
+        self.storage = Storage(kept, self.database, self.recorder.state)
+        supply_pa = presets.rig.supply.high_pa
+        self.status = StatusReader(self.link, self.recorder, plans, supply_pa, self.storage.state)
         self.rig = Rig(self.link, lambda: self.status.read().commands)
         reader = Reader(self.histories)
         self.catalogue = Catalogue(self.database, reader)
         self.library = Library(self.database, reader)
         self.runs = Runs(self.database, settings.runs_dir)
         self.results = Results(self.database, settings.runs_dir, self.histories)
-        kept = StorageSettings(settings.runs_dir, self.period_s(), settings.reserve_bytes)
-        self.storage = Storage(kept, self.database, self.recorder.state)
         self._watcher = Watcher(
             self.storage,
             self.recorder.state,
@@ -73,6 +75,7 @@ class Console:
             lambda: self.link.ask(Opcode.STOP),
         )
         self.run_windows = RunWindows(self.database, settings.runs_dir)
+        self.predictions = Predictions(presets.controller, presets.interlocks, presets.rig)
         self.starter = Starter(
             self.database,
             self.link,
@@ -109,6 +112,7 @@ class Console:
 
     def close(self) -> None:
         """Take the load off, depressurise, end the loop, write down what was recorded."""
+        self.predictions.close()
         self._watcher.close()
         self.link.take_load_off()
         self.link.end_loop()

@@ -4,6 +4,7 @@ from enum import StrEnum
 
 from pydantic import BaseModel, ConfigDict
 
+from app.storage.schemas import StorageState
 from rtcore.modes import Mode
 
 
@@ -146,6 +147,7 @@ class RigStatus(BaseModel):
     loop: LoopHealth
     run: RunProgress | None
     recorder: RecorderOut
+    storage: StorageState
     commands: CommandReasons
 
 

@@ -1,6 +1,7 @@
 """The status of the rig, read from the shared block: no database, no waiting."""
 
 import math
+from collections.abc import Callable
 from threading import Lock
 from typing import Any
 
@@ -24,6 +25,7 @@ from app.rigs.schemas import (
     Trip,
 )
 from app.runs.plans import Plans
+from app.storage.schemas import StorageState
 from rtcore.channels import CHANNELS, TELEMETRY
 from rtcore.interlocks import Comparison, Quantity
 from rtcore.modes import Mode
@@ -36,12 +38,18 @@ class StatusReader:
     """Puts the status together. May be asked from any thread."""
 
     def __init__(
-        self, link: Link, recorder: Recorder, plans: Plans, supply_pressure_pa: float
+        self,
+        link: Link,
+        recorder: Recorder,
+        plans: Plans,
+        supply_pressure_pa: float,
+        storage: Callable[[], StorageState],
     ) -> None:
         self._link = link
         self._recorder = recorder
         self._plans = plans
         self._supply_pressure_pa = supply_pressure_pa
+        self._storage = storage
         self._history: History | None = None
         self._reading = Lock()
 
@@ -68,6 +76,7 @@ class StatusReader:
             loop=health,
             run=self._progress(life, record) if health.alive else None,
             recorder=self._recorder_out(),
+            storage=self._storage(),
             commands=_reasons(record, trips, alive=health.alive),
         )
 
@@ -87,6 +96,7 @@ class StatusReader:
             loop=loop_health(life, _NO_RECORD, None),
             run=None,
             recorder=self._recorder_out(),
+            storage=self._storage(),
             commands=reasons(Situation(None, None, math.nan)),
         )
 

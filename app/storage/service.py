@@ -11,6 +11,7 @@ from app.storage import repository
 from app.storage.retention import Retainer
 from app.storage.schemas import StorageOut, StorageState, StorageWord
 from app.storage.space import (
+    FILE_BYTES_PER_TICK,
     PART_BYTES_PER_TICK,
     Space,
     bytes_of,
@@ -46,7 +47,7 @@ class Storage:
         self._database = database
         self._recorder = recorder
         self._space = space
-        self._file_bytes_per_tick: float | None = None
+        self._file_bytes_per_tick = FILE_BYTES_PER_TICK  # until one has been measured
         self.retention = Retainer(database, settings.runs_dir)
 
     def state(self) -> StorageState:
@@ -66,18 +67,12 @@ class Storage:
 
     def reserve_bytes(self, recorder: RecorderState) -> int:
         """What must stay free: for the file of the run under way, and for the database."""
-        return self._settings.reserve_bytes + round(recorder.ticks * self.file_bytes_per_tick())
+        return self._settings.reserve_bytes + round(recorder.ticks * self._file_bytes_per_tick)
 
     def bytes_per_s(self) -> float:
         """What recording takes: a part goes on while the room for its file is kept free."""
-        per_tick = PART_BYTES_PER_TICK + self.file_bytes_per_tick()
+        per_tick = PART_BYTES_PER_TICK + self._file_bytes_per_tick
         return per_tick / self._settings.period_s
-
-    def file_bytes_per_tick(self) -> float:
-        """Of the latest run that is long enough to tell."""
-        if self._file_bytes_per_tick is None:
-            self.measure()
-        return self._file_bytes_per_tick or 1.0
 
     def measure(self) -> None:
         """Look at the latest long run again: what it takes is what the next one will."""

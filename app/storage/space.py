@@ -20,8 +20,14 @@ class Space(NamedTuple):
 
 
 def space_of(folder: Path) -> Space:
-    """What the console may still write there: blocks kept for the system do not count."""
-    usage = shutil.disk_usage(folder)
+    """What the console may still write there: blocks kept for the system do not count.
+
+    Nothing where the folder cannot be asked for: no run can be recorded then.
+    """
+    try:
+        usage = shutil.disk_usage(folder)
+    except OSError:
+        return Space(0, 0)
     return Space(usage.total, usage.free)
 
 

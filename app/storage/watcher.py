@@ -34,7 +34,7 @@ class Watcher:
         self._because = because
         self._stop = stop
         self._stopped_run = 0
-        self._last_run = 0
+        self._last_run = -1
         self._ended = Event()
         self._thread = Thread(target=self._watch, name="storage", daemon=True)
 

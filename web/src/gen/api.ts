@@ -184,6 +184,66 @@ export interface paths {
         patch: operations["annotateRun"];
         trace?: never;
     };
+    "/api/v1/runs/{run_id}/acquisitions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Run Acquisitions
+         * @description The tables that the test asked for beside the record; of a run under way, so far.
+         */
+        get: operations["listRunAcquisitions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/acquisitions/{index}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Acquisition
+         * @description Rows of a table, column by column.
+         */
+        get: operations["getRunAcquisition"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/acquisitions/{index}.csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Acquisition Csv
+         * @description A whole table as CSV, with the units in its first line.
+         */
+        get: operations["getRunAcquisitionCsv"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run_id}/data.parquet": {
         parameters: {
             query?: never;
@@ -216,6 +276,26 @@ export interface paths {
          * @description What the loop reported during the run, in order.
          */
         get: operations["listRunEvents"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/measurements": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Measurements
+         * @description What was measured of the run and of each block, and how that was judged.
+         */
+        get: operations["getRunMeasurements"];
         put?: never;
         post?: never;
         delete?: never;
@@ -388,6 +468,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/tests/prediction": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Predict Text
+         * @description Run a test that is not saved on the virtual rig, with the present settings.
+         */
+        post: operations["predictText"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Test
+         * @description What a test will do, by the loop's own generator; nothing is saved.
+         */
+        post: operations["previewTest"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/spectrum": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Read Spectrum
+         * @description The layers in rows pasted from a spreadsheet.
+         */
+        post: operations["readSpectrum"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/tests/{test_id}": {
         parameters: {
             query?: never;
@@ -490,6 +630,26 @@ export interface paths {
         get: operations["getDifference"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tests/{test_id}/prediction": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Predict Test
+         * @description Run a test on the virtual rig, with the present settings: what a start of it is held against.
+         */
+        post: operations["predictTest"];
         delete?: never;
         options?: never;
         head?: never;
@@ -621,6 +781,46 @@ export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
         /**
+         * AcquisitionColumn
+         * @description A column of a table.
+         */
+        AcquisitionColumn: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+        };
+        /**
+         * AcquisitionRows
+         * @description Rows of a table from `from_row` on, of `rows` in all; null where there is no number.
+         */
+        AcquisitionRows: {
+            /** Columns */
+            columns: {
+                [key: string]: (number | null)[];
+            };
+            /** From Row */
+            from_row: number;
+            /** Rows */
+            rows: number;
+        };
+        /**
+         * AcquisitionSummary
+         * @description A table beside the record; of a run under way, as far as it has got.
+         */
+        AcquisitionSummary: {
+            /** Columns */
+            columns: components["schemas"]["AcquisitionColumn"][];
+            /** Index */
+            index: number;
+            /** Kind */
+            kind: string;
+            /** Rows */
+            rows: number;
+            /** Title */
+            title: string;
+        };
+        /**
          * Band
          * @description Least and greatest value at each time; null where the channel was not a number.
          */
@@ -629,6 +829,18 @@ export interface components {
             max: (number | null)[];
             /** Min */
             min: (number | null)[];
+        };
+        /**
+         * BlockMeasurements
+         * @description What was measured of a block.
+         */
+        BlockMeasurements: {
+            /** Block */
+            block: number;
+            /** Kind */
+            kind: string;
+            /** Measurements */
+            measurements: components["schemas"]["MeasuredValue"][];
         };
         /**
          * BlockOutline
@@ -651,19 +863,48 @@ export interface components {
             start_s: number;
         };
         /**
-         * Change
-         * @description A key of the definition that two revisions differ in.
+         * BlockPrediction
+         * @description A block of the test, over all ticks in which it was played.
          */
-        Change: {
-            /** After */
-            after?: unknown;
-            /** Before */
-            before?: unknown;
+        BlockPrediction: {
+            /** Force Error Peak N */
+            force_error_peak_n: number | null;
+            /** Force Error Rms N */
+            force_error_rms_n: number | null;
+            /** Index */
+            index: number;
+            /** Kind */
+            kind: string;
+            /** Longest Saturation S */
+            longest_saturation_s: number | null;
             /**
-             * Kind
-             * @enum {string}
+             * Measurements
+             * @default []
              */
-            kind: "added" | "removed" | "changed";
+            measurements: components["schemas"]["MeasurementOut"][];
+            /** Peak Force N */
+            peak_force_n: number | null;
+            /** Saturated S */
+            saturated_s: number | null;
+            /** Saturation Share */
+            saturation_share: number | null;
+        };
+        /**
+         * ChangeKind
+         * @description What became of a value.
+         * @enum {string}
+         */
+        ChangeKind: "added" | "removed" | "changed";
+        /**
+         * ChangeOut
+         * @description A key of the definition that two revisions differ in; what was removed as it was named before.
+         */
+        ChangeOut: {
+            /** After */
+            after: unknown;
+            /** Before */
+            before: unknown;
+            kind: components["schemas"]["ChangeKind"];
             /** Path */
             path: string;
         };
@@ -728,6 +969,22 @@ export interface components {
             command: components["schemas"]["RigCommand"];
         };
         /**
+         * Computing
+         * @description A prediction that is under way; ask again for it.
+         */
+        Computing: {
+            /** Seconds Left */
+            seconds_left: number | null;
+            /** Share */
+            share: number;
+            /**
+             * State
+             * @default computing
+             * @constant
+             */
+            state: "computing";
+        };
+        /**
          * Condition
          * @description A real-time condition of the loop: whether it was had, and what was got or why not.
          */
@@ -740,12 +997,45 @@ export interface components {
             reason: string;
         };
         /**
+         * CriterionOut
+         * @description An acceptance criterion, judged on the prediction.
+         */
+        CriterionOut: {
+            /** At Least */
+            at_least: number | null;
+            /** At Most */
+            at_most: number | null;
+            /** Block */
+            block: number | null;
+            /** Measurement */
+            measurement: string;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "pass" | "fail" | "unset";
+            /** Unit */
+            unit: string;
+            /** Value */
+            value: number | null;
+        };
+        /**
+         * CutOut
+         * @description What of the test was not predicted: `block 3: one of 1,000,000 passes`.
+         */
+        CutOut: {
+            /** Path */
+            path: string;
+            /** Text */
+            text: string;
+        };
+        /**
          * Difference
          * @description What two revisions differ in; `text` is the unified difference of their YAML.
          */
         Difference: {
             /** Changes */
-            changes: components["schemas"]["Change"][];
+            changes: components["schemas"]["ChangeOut"][];
             /** From */
             from: number;
             /** Text */
@@ -1042,6 +1332,46 @@ export interface components {
             name: string;
         };
         /**
+         * JudgedCriterion
+         * @description An acceptance criterion and what it came to; block is null where it is about the whole run.
+         */
+        JudgedCriterion: {
+            /** At Least */
+            at_least: number | null;
+            /** At Most */
+            at_most: number | null;
+            /** Block */
+            block: number | null;
+            /** Measurement */
+            measurement: string;
+            /**
+             * Outcome
+             * @enum {string}
+             */
+            outcome: "pass" | "fail" | "unset";
+            /** Unit */
+            unit: string;
+            /** Value */
+            value: number | null;
+        };
+        /**
+         * Layer
+         * @description One layer of a load spectrum.
+         */
+        Layer: {
+            /** Amplitude N */
+            amplitude_n: number;
+            /** Cycles */
+            cycles: number;
+            /** Frequency Hz */
+            frequency_hz: number;
+            /**
+             * Mean N
+             * @default 0
+             */
+            mean_n: number;
+        };
+        /**
          * Leaving
          * @description A run whose samples go, and why.
          */
@@ -1108,6 +1438,68 @@ export interface components {
             wakeup_latency_p99_s: number | null;
         };
         /**
+         * Margin
+         * @description How near a detector comes to its trip.
+         *
+         *     `extreme` is the value that lasts as long as the detector wants it to; `margin` is what is left to the
+         *     threshold, below zero where it trips. Both are null where nothing can be said, and `note` says why.
+         */
+        Margin: {
+            /** Action */
+            action: string;
+            /** Block */
+            block: number | null;
+            /** Detector */
+            detector: string;
+            /** Extreme */
+            extreme: number | null;
+            /** Margin */
+            margin: number | null;
+            /** Margin Share */
+            margin_share: number | null;
+            /**
+             * Note
+             * @default
+             */
+            note: string;
+            /** Predicted */
+            predicted: boolean;
+            /** Quantity */
+            quantity: string;
+            /** Threshold */
+            threshold: number;
+            /** Tick */
+            tick: number | null;
+            /** Time S */
+            time_s: number | null;
+            /** Unit */
+            unit: string | null;
+        };
+        /**
+         * MeasuredValue
+         * @description A value; null where it was no number, as where a step never settled.
+         */
+        MeasuredValue: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Value */
+            value: number | null;
+        };
+        /**
+         * MeasurementOut
+         * @description A measurement that has a value.
+         */
+        MeasurementOut: {
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Value */
+            value: number;
+        };
+        /**
          * ModeWord
          * @description State of the loop; `starting` until its first sign of life, `lost` without one.
          * @enum {string}
@@ -1162,6 +1554,114 @@ export interface components {
             peak_force_n: number;
         };
         /**
+         * Prediction
+         * @description A test run on the virtual rig before it runs on the real one.
+         */
+        Prediction: {
+            /** Blocks */
+            blocks: components["schemas"]["BlockPrediction"][];
+            /** Computed In S */
+            computed_in_s: number;
+            /** Criteria */
+            criteria: components["schemas"]["CriterionOut"][];
+            /** Duration S */
+            duration_s: number;
+            /** Key */
+            key: string;
+            /** Margins */
+            margins: components["schemas"]["Margin"][];
+            /** Outcome */
+            outcome: string;
+            peaks: components["schemas"]["app__prediction__schemas__Peaks"];
+            /** Predicted S */
+            predicted_s: number;
+            /** Reason */
+            reason: string | null;
+            /** Reasons */
+            reasons: components["schemas"]["Reason"][];
+            /** Seed */
+            seed: number;
+            /** Shortened */
+            shortened: components["schemas"]["CutOut"][];
+            /** Speed */
+            speed: number;
+            valve: components["schemas"]["Valve"];
+            verdict: components["schemas"]["PredictionVerdict"];
+        };
+        /**
+         * PredictionAsked
+         * @description Which revision to predict, the newest by default, and how long to wait for it.
+         */
+        PredictionAsked: {
+            /** Revision */
+            revision?: number | null;
+            /**
+             * Wait S
+             * @default 30
+             */
+            wait_s: number;
+        };
+        /**
+         * PredictionVerdict
+         * @description What a prediction means for a start: nothing stands against it, a reason is needed, or never.
+         * @enum {string}
+         */
+        PredictionVerdict: "clear" | "caution" | "refused";
+        /**
+         * PreviewAsk
+         * @description A window of a test that need not be saved; all of it where none is given.
+         */
+        PreviewAsk: {
+            /** Definition */
+            definition?: {
+                [key: string]: unknown;
+            } | null;
+            /**
+             * From S
+             * @default 0
+             */
+            from_s: number;
+            /**
+             * Points
+             * @default 1000
+             */
+            points: number;
+            /** To S */
+            to_s?: number | null;
+            /** Yaml */
+            yaml?: string | null;
+        };
+        /**
+         * PreviewOut
+         * @description The setpoints of a window, bin by bin, and what the whole test comes to.
+         */
+        PreviewOut: {
+            /** Block */
+            block: number[];
+            /** Decimated */
+            decimated: boolean;
+            /** Displacement Max M */
+            displacement_max_m: number[];
+            /** Displacement Min M */
+            displacement_min_m: number[];
+            /** Duration S */
+            duration_s: number;
+            /** Force Max N */
+            force_max_n: number[];
+            /** Force Min N */
+            force_min_n: number[];
+            /** From S */
+            from_s: number;
+            outline: components["schemas"]["Outline"];
+            peaks: components["schemas"]["app__definitions__preview__Peaks"];
+            /** Shortened */
+            shortened: boolean;
+            /** Time S */
+            time_s: number[];
+            /** To S */
+            to_s: number;
+        };
+        /**
          * Problem
          * @description A problem document; some codes bring members of their own (`current_revision` …).
          */
@@ -1203,6 +1703,25 @@ export interface components {
             unit: string | null;
             /** Value */
             value: unknown;
+        };
+        /**
+         * Reason
+         * @description Why a prediction is not clear, in a sentence to act on; where and when, counted from the start.
+         */
+        Reason: {
+            /** Block */
+            block?: number | null;
+            /** Code */
+            code: string;
+            /**
+             * Severity
+             * @enum {string}
+             */
+            severity: "caution" | "refused";
+            /** Text */
+            text: string;
+            /** Time S */
+            time_s?: number | null;
         };
         /**
          * RecorderOut
@@ -1303,6 +1822,7 @@ export interface components {
             };
             recorder: components["schemas"]["RecorderOut"];
             run: components["schemas"]["RunProgress"] | null;
+            storage: components["schemas"]["StorageState"];
             /** Trips */
             trips: components["schemas"]["Trip"][];
         };
@@ -1424,6 +1944,23 @@ export interface components {
         RunEvents: {
             /** Events */
             events: components["schemas"]["RunEventOut"][];
+        };
+        /**
+         * RunMeasurements
+         * @description What a run amounts to; empty while it is under way.
+         */
+        RunMeasurements: {
+            /** Blocks */
+            blocks: components["schemas"]["BlockMeasurements"][];
+            /** Criteria */
+            criteria: components["schemas"]["JudgedCriterion"][];
+            /** Run */
+            run: components["schemas"]["MeasuredValue"][];
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "pass" | "fail" | "unset";
         };
         /**
          * RunPage
@@ -1562,6 +2099,24 @@ export interface components {
             type: "runs";
         };
         /**
+         * SpectrumOut
+         * @description The layers that could be read, and what is wrong with the lines that could not.
+         */
+        SpectrumOut: {
+            /** Layers */
+            layers: components["schemas"]["Layer"][];
+            /** Problems */
+            problems: components["schemas"]["ProblemOut"][];
+        };
+        /**
+         * SpectrumText
+         * @description Rows of a spreadsheet, as they were pasted.
+         */
+        SpectrumText: {
+            /** Text */
+            text: string;
+        };
+        /**
          * StatusFrame
          * @description Each 100 ms.
          */
@@ -1593,6 +2148,17 @@ export interface components {
             total_bytes: number;
             /** Used By Runs Bytes */
             used_by_runs_bytes: number;
+        };
+        /**
+         * StorageState
+         * @description What is always on the screen; `seconds_left` of recording, null where nothing limits it.
+         */
+        StorageState: {
+            /** Free Bytes */
+            free_bytes: number;
+            /** Seconds Left */
+            seconds_left: number | null;
+            state: components["schemas"]["StorageWord"];
         };
         /**
          * StorageWord
@@ -1823,6 +2389,23 @@ export interface components {
             yaml?: string | null;
         };
         /**
+         * TextPredictionAsked
+         * @description A test that is not saved, and how long to wait for its prediction.
+         */
+        TextPredictionAsked: {
+            /** Definition */
+            definition?: {
+                [key: string]: unknown;
+            } | null;
+            /**
+             * Wait S
+             * @default 30
+             */
+            wait_s: number;
+            /** Yaml */
+            yaml?: string | null;
+        };
+        /**
          * Trip
          * @description A latched detector; `first` for the one that tripped first.
          */
@@ -1835,6 +2418,62 @@ export interface components {
             text: string;
             /** Tick */
             tick: number;
+        };
+        /**
+         * Valve
+         * @description The valve command: its peak, the share of the test at its limit, and the longest stretch of that.
+         */
+        Valve: {
+            /** Longest Saturation S */
+            longest_saturation_s: number;
+            /** Peak */
+            peak: number;
+            /** Saturation Share */
+            saturation_share: number;
+        };
+        /**
+         * Peaks
+         * @description The greatest of each within the window, either way, and the second of the test at which it is.
+         *
+         *     A rate is the change in a tick; that of a sudden step says only that it is sudden.
+         */
+        app__definitions__preview__Peaks: {
+            /** Displacement At S */
+            displacement_at_s: number;
+            /** Displacement M */
+            displacement_m: number;
+            /** Force At S */
+            force_at_s: number;
+            /** Force N */
+            force_n: number;
+            /** Force Rate At S */
+            force_rate_at_s: number;
+            /** Force Rate N S */
+            force_rate_n_s: number;
+            /** Velocity At S */
+            velocity_at_s: number;
+            /** Velocity M S */
+            velocity_m_s: number;
+        };
+        /**
+         * Peaks
+         * @description The largest magnitudes, null where the test cannot begin.
+         *
+         *     The flow is the pump's, through the supply line; the droop is what its pressure lacks at the manifold.
+         */
+        app__prediction__schemas__Peaks: {
+            /** Displacement M */
+            displacement_m: number | null;
+            /** Force Error N */
+            force_error_n: number | null;
+            /** Force N */
+            force_n: number | null;
+            /** Pressure Droop Pa */
+            pressure_droop_pa: number | null;
+            /** Supply Flow M3 S */
+            supply_flow_m3_s: number | null;
+            /** Velocity M S */
+            velocity_m_s: number | null;
         };
     };
     responses: never;
@@ -2197,6 +2836,104 @@ export interface operations {
             };
         };
     };
+    listRunAcquisitions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AcquisitionSummary"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunAcquisition: {
+        parameters: {
+            query?: {
+                from_row?: number;
+                rows?: number;
+            };
+            header?: never;
+            path: {
+                run_id: number;
+                /** @description its place in the test, from 0 */
+                index: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AcquisitionRows"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunAcquisitionCsv: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+                /** @description its place in the test, from 0 */
+                index: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getRunParquet: {
         parameters: {
             query?: never;
@@ -2244,6 +2981,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunEvents"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunMeasurements: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunMeasurements"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -2562,6 +3330,114 @@ export interface operations {
             };
         };
     };
+    predictText: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TextPredictionAsked"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Prediction"] | components["schemas"]["Computing"];
+                };
+            };
+            /** @description Still being computed: ask again */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Computing"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    previewTest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PreviewAsk"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PreviewOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    readSpectrum: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SpectrumText"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SpectrumOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getTest: {
         parameters: {
             query?: never;
@@ -2778,6 +3654,50 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Difference"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    predictTest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                test_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["PredictionAsked"] | null;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Prediction"] | components["schemas"]["Computing"];
+                };
+            };
+            /** @description Still being computed: ask again */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Computing"];
                 };
             };
             /** @description A problem document (RFC 9457) */

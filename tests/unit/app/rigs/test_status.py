@@ -14,9 +14,11 @@ from app.recording.recorder import Recorder, RecorderState
 from app.rigs.schemas import RigStatus
 from app.rigs.status import StatusReader
 from app.runs.plans import Plans
+from app.storage.schemas import StorageState, StorageWord
 from rtcore.modes import Mode
 from tests.written_block import APP_SILENCE, FORCE_ERROR, PERIOD_S, WrittenBlock
 
+ROOM = StorageState(free_bytes=10**12, state=StorageWord.OK, seconds_left=1e6)
 IDLE = RecorderState(recording=False, lost_ticks=0, size_bytes=0, trouble=None)
 
 
@@ -25,7 +27,7 @@ def reader(
 ) -> StatusReader:
     link = cast(Link, SimpleNamespace(life=life, starting=starting))
     recorder = cast(Recorder, SimpleNamespace(state=lambda: IDLE))
-    return StatusReader(link, recorder, plans or Plans(), 21e6)
+    return StatusReader(link, recorder, plans or Plans(), 21e6, lambda: ROOM)
 
 
 def read(loop: WrittenBlock, age_s: float = 0.0, **options: Any) -> RigStatus:

@@ -27,6 +27,7 @@ class Disk:
     def __init__(self, database: Database, folder: Path) -> None:
         self.free = 10**12
         self.recorder = IDLE
+        self.database = database
         settings = StorageSettings(folder / "runs", PERIOD_S, RESERVE)
         self.storage = Storage(
             settings, database, lambda: self.recorder, lambda _: Space(10**13, self.free)
@@ -72,11 +73,12 @@ def test_both_the_parts_and_the_file_made_of_them_count(disk: Disk) -> None:
 
 
 def test_what_the_last_run_took_is_what_the_next_will(disk: Disk, tmp_path: Path) -> None:
-    assert disk.storage.file_bytes_per_tick() == FILE_BYTES_PER_TICK
+    assert disk.storage.bytes_per_s() == pytest.approx(PER_S)
     size = sum((FILES | REDUCED).values())
-    enter(disk.storage._database, tmp_path / "runs", 1, ticks=50_000)
+    enter(disk.database, tmp_path / "runs", 1, ticks=50_000)
     disk.storage.measure()
-    assert disk.storage.file_bytes_per_tick() == max(1.0, size / 50_000)
+    per_tick = PART_BYTES_PER_TICK + max(1.0, size / 50_000)
+    assert disk.storage.bytes_per_s() == pytest.approx(per_tick / PERIOD_S)
 
 
 def test_room_is_low_in_good_time_and_full_before_it_is_gone(disk: Disk) -> None:
