@@ -56,7 +56,51 @@ layers = _kind(
     repeats=st.integers(1, 3),
     transition_s=durations,
 )
-smooth_blocks = st.one_of(hold, ramp, harmonic, layers)
+_swings = {
+    "mean_n": forces,
+    "amplitude_n": st.floats(0, 3000).map(lambda a: round(a, 2)),
+    "from_hz": frequencies,
+    "to_hz": frequencies,
+    "law": st.sampled_from(["log", "linear"]),
+    "taper_cycles": tapers,
+}
+sweep = st.one_of(
+    _kind("sweep", **_swings, duration_s=durations),
+    _kind("sweep", **_swings, rate_octaves_s=st.sampled_from([5.0, 20.0, 64.5])),
+).filter(lambda b: b["from_hz"] != b["to_hz"])
+_swung = st.lists(st.floats(1, 3000).map(lambda a: round(a, 2)), min_size=1, max_size=2)
+_band = st.fixed_dictionaries(
+    {"from_hz": st.just(20.0), "to_hz": st.sampled_from([40.0, 101.5]), "points": st.integers(2, 4)}
+)
+_response = {
+    "mean_n": forces,
+    "amplitudes_n": _swung,
+    "settle_cycles": st.integers(0, 2),
+    "measure_cycles": st.integers(1, 3),
+}
+stepped_sine = _kind(
+    "frequency_response",
+    **_response,
+    method=st.just("stepped_sine"),
+    frequencies_hz=st.one_of(_band, st.lists(frequencies, min_size=1, max_size=3)),
+)
+multisine = _kind(
+    "frequency_response",
+    **_response,
+    method=st.just("multisine"),
+    frequencies_hz=st.one_of(_band, st.sampled_from([[10.0, 20.0, 50.0], [12.5], [30.0, 40.0]])),
+)
+time_history = _kind(
+    "time_history",
+    samples_n=st.lists(forces, min_size=2, max_size=12),
+    rate_hz=st.sampled_from([40.0, 100.0, 133.3]),
+    gain=st.sampled_from([1.0, -0.5]),
+    repeats=st.integers(1, 3),
+)
+smooth_blocks = st.one_of(
+    hold, ramp, harmonic, layers, sweep, stepped_sine, multisine, time_history
+)
+every_block = st.one_of(smooth_blocks, step)
 
 
 def repeated(blocks: st.SearchStrategy[Data]) -> st.SearchStrategy[Data]:
@@ -81,8 +125,27 @@ motions = st.one_of(
         cycles=st.integers(1, 2),
         taper_cycles=st.sampled_from([0, 1, 2]),
     ),
+    _kind(
+        "time_history",
+        samples_m=st.lists(positions.map(lambda x: x / 2), min_size=2, max_size=8),
+        rate_hz=st.sampled_from([5.0, 12.0]),
+        repeats=st.integers(1, 2),
+    ),
 )
+RECORDS: list[Data] = [
+    {"channels": "all", "also": []},
+    {"channels": ["force_n", "valve_command"], "also": [{"kind": "timed", "rate_hz": 10.0}]},
+    {
+        "channels": "all",
+        "also": [
+            {"kind": "peak_valley"},
+            {"kind": "max_min", "every_s": 0.5},
+            {"kind": "logarithmic_cycles"},
+        ],
+    },
+]
 criteria = st.one_of(
+    st.just({"measurement": "peak_force_n", "block": 0, "at_most": 1e5}),
     st.fixed_dictionaries({"measurement": st.just("peak_force_n"), "at_most": st.floats(0, 1e5)}),
     st.fixed_dictionaries(
         {"measurement": st.just("goodness_of_fit"), "at_least": st.floats(-1e300, 1e300)}
@@ -102,9 +165,7 @@ def definitions(blocks: st.SearchStrategy[Data]) -> st.SearchStrategy[Data]:
             ),
             "blocks": st.lists(trees(blocks), min_size=1, max_size=3),
             "motion": st.lists(motions, max_size=2),
-            "record": st.sampled_from(
-                [{"channels": "all"}, {"channels": ["force_n", "valve_command"]}]
-            ),
+            "record": st.sampled_from(RECORDS),
             "acceptance": st.lists(criteria, max_size=2),
         }
     )
