@@ -199,6 +199,7 @@ def _leave(g: Record, s: Record, table: Record, period_s: float) -> None:
     _evaluate(g, s, table, g.ticks, period_s)
     if s.kind == Segment.SAMPLES:
         g.knot = g.first_knot + s.times
+        g.mean = g.value  # a sine that continues from here begins where the samples end
     if has_phase(s.kind):
         phase = _phase(g, s, g.ticks, period_s)
         if s.counts != 0:
