@@ -12,7 +12,10 @@ from pydantic import (
     model_validator,
 )
 
+from app.definitions.blocks import Layer
+from app.definitions.difference import ChangeKind
 from app.definitions.outline import Outline
+from app.definitions.preview import MOST_POINTS, Preview
 from app.documents.tree import MAX_BYTES
 
 LONGEST_ID = 100
@@ -142,23 +145,21 @@ class RevisionSummary(BaseModel):
     created_at: datetime
 
 
-class Change(BaseModel):
-    """A key of the definition that two revisions differ in."""
+class ChangeOut(BaseModel):
+    """A key of the definition that two revisions differ in; what was removed as it was named before."""
 
     path: str
-    before: Any = None
-    after: Any = None
-    kind: Literal["added", "removed", "changed"]
+    before: Any
+    after: Any
+    kind: ChangeKind
 
 
 class Difference(BaseModel):
     """What two revisions differ in; `text` is the unified difference of their YAML."""
 
-    model_config = ConfigDict(serialize_by_alias=True)
-
-    from_: int = Field(alias="from")
+    before: int = Field(serialization_alias="from")
     to: int
-    changes: list[Change]
+    changes: list[ChangeOut]
     text: str
 
 
@@ -171,6 +172,33 @@ class ProblemOut(BaseModel):
     limit: float | None
     unit: str | None
     line: int | None
+
+
+class PreviewAsk(TestText):
+    """A window of a test that need not be saved; all of it where none is given."""
+
+    from_s: Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)] = 0.0
+    to_s: Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)] | None = None
+    points: Annotated[int, Field(ge=1, le=MOST_POINTS)] = 1000
+
+
+class PreviewOut(Preview):
+    """The setpoints of a window, bin by bin, and what the whole test comes to."""
+
+    outline: Outline
+
+
+class SpectrumText(_Asked):
+    """Rows of a spreadsheet, as they were pasted."""
+
+    text: Annotated[str, Field(max_length=MAX_BYTES)]
+
+
+class SpectrumOut(BaseModel):
+    """The layers that could be read, and what is wrong with the lines that could not."""
+
+    layers: list[Layer]
+    problems: list[ProblemOut]
 
 
 class TestChecked(BaseModel):

@@ -3,8 +3,17 @@
 import json
 from typing import Any
 
-from app.catalogue.schemas import ProblemOut, TestChecked, TestText
+from app.catalogue.schemas import (
+    PreviewAsk,
+    PreviewOut,
+    ProblemOut,
+    SpectrumOut,
+    TestChecked,
+    TestText,
+)
 from app.catalogue.written import Reader, Written
+from app.definitions.preview import preview as preview_of
+from app.definitions.spectrum import read_spectrum
 from app.documents.refusal import Problem
 from app.documents.tree import Malformed, parse_yaml
 from app.documents.writing import data_to_yaml
@@ -30,6 +39,23 @@ def check(reader: Reader, text: TestText) -> TestChecked:
         definition=written.data,
         yaml=written.yaml,
         outline=written.outline,
+    )
+
+
+def preview(reader: Reader, asked: PreviewAsk) -> PreviewOut | Refusal:
+    """What a test will do, by the loop's own generator."""
+    written = read(reader, asked)
+    if isinstance(written, Refusal):
+        return written
+    found = preview_of(written.definition, asked.from_s, asked.to_s, asked.points)
+    return PreviewOut(**dict(found), outline=written.outline)
+
+
+def spectrum(text: str) -> SpectrumOut:
+    """The layers in rows that were pasted."""
+    found = read_spectrum(text)
+    return SpectrumOut(
+        layers=list(found.layers), problems=[_shown(problem) for problem in found.problems]
     )
 
 

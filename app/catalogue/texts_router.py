@@ -9,7 +9,17 @@ from pydantic import ValidationError
 
 from app.catalogue import texts
 from app.catalogue.archive import unpack
-from app.catalogue.schemas import LONGEST_ID, Imported, TestChecked, TestFiles, TestText
+from app.catalogue.schemas import (
+    LONGEST_ID,
+    Imported,
+    PreviewAsk,
+    PreviewOut,
+    SpectrumOut,
+    SpectrumText,
+    TestChecked,
+    TestFiles,
+    TestText,
+)
 from app.dependencies import CatalogueService, LibraryService
 from app.errors import Refusal
 from app.problems import PROBLEMS, granted
@@ -24,6 +34,18 @@ _ZIP = "application/zip"
 def check_test(body: TestText, catalogue: CatalogueService) -> TestChecked:
     """Check a test and turn it from data into YAML or back; nothing is saved."""
     return texts.check(catalogue.reader, body)
+
+
+@router.post("/preview", operation_id="previewTest")
+def preview_test(body: PreviewAsk, catalogue: CatalogueService) -> PreviewOut:
+    """What a test will do, by the loop's own generator; nothing is saved."""
+    return granted(texts.preview(catalogue.reader, body))
+
+
+@router.post("/spectrum", operation_id="readSpectrum")
+def read_spectrum(body: SpectrumText) -> SpectrumOut:
+    """The layers in rows pasted from a spreadsheet."""
+    return texts.spectrum(body.text)
 
 
 # ---- as files ----

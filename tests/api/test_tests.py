@@ -101,6 +101,13 @@ def test_an_old_revision_is_told_apart_and_taken_back(console: ConsoleProcess) -
     assert (difference["from"], difference["to"]) == (1, 2)
     assert "-  - {kind: ramp, to_n: 1000, rate_n_s: 1000}\n" in difference["text"]
     assert "+  - {kind: ramp, to_n: 1500, rate_n_s: 1000}\n" in difference["text"]
+    (change,) = difference["changes"]
+    assert change == {
+        "path": "blocks[0].to_n",
+        "before": 1000.0,
+        "after": 1500.0,
+        "kind": "changed",
+    }
     restored = console.http.post(f"{path}/revisions/1/restore")
     assert (restored.json()["revision"], restored.json()["yaml"]) == (3, YAML)
     assert code(console.http.get(f"{path}/revisions/9")) == (404, "unknown_revision")
@@ -182,6 +189,26 @@ def test_a_check_turns_what_is_wrong_into_the_other_form_too(console: ConsolePro
     assert (checked["valid"], "1000000000000" in line) == (False, True)
     for nonsense in ({"yaml": "a: ["}, {"yaml": "a: .inf"}, {"yaml": "7"}):
         assert console.http.post("/tests/check", json=nonsense).json()["definition"] is None
+
+
+def test_a_preview_is_what_will_be_played(console: ConsoleProcess) -> None:
+    asked = {"yaml": YAML, "from_s": 0.5, "to_s": 1.5, "points": 4}
+    preview = console.http.post("/tests/preview", json=asked).json()
+    assert preview["time_s"] == pytest.approx([0.5, 0.75, 1.0, 1.25], abs=1e-3)
+    assert preview["force_max_n"] == pytest.approx([750, 1000, 1000, 1000], abs=1)
+    assert preview["force_min_n"] == pytest.approx([500, 750, 1000, 1000], abs=1)
+    assert preview["peaks"]["force_rate_n_s"] == pytest.approx(1000, rel=0.01)
+    assert preview["outline"]["duration_s"] == pytest.approx(2.0)
+    refused = console.http.post("/tests/preview", json={"yaml": "schema: 1"})
+    assert code(refused) == (422, "invalid_test")
+
+
+def test_a_spectrum_is_read_as_it_was_pasted(console: ConsoleProcess) -> None:
+    text = "Amplitude [kN];Frequency;Cycles\n1,5;10;100\n2;x;5\n"
+    spectrum = console.http.post("/tests/spectrum", json={"text": text}).json()
+    assert spectrum["layers"][0]["amplitude_n"] == pytest.approx(1500)
+    (problem,) = spectrum["problems"]
+    assert (problem["path"], problem["line"]) == ("layers[1].frequency_hz", 3)
 
 
 def test_a_library_goes_out_and_comes_back(console: ConsoleProcess) -> None:
