@@ -116,7 +116,7 @@ def _counts(nodes: Iterable[Node]) -> bool:
 
 
 def _judge(criterion: Criterion, measured: Measured, completed: bool) -> Judgement:
-    block: int | None = getattr(criterion, "block", None)
+    block = criterion.block
     values: Values = measured.run if block is None else dict(measured.blocks.get(block, {}))
     value = values.get(criterion.measurement)
     measurement = MEASUREMENTS[criterion.measurement]

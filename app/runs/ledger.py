@@ -1,17 +1,25 @@
 """The book of runs that the recorder writes in (`app.recording.clerk.RunBook`)."""
 
+import logging
 import math
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
-from typing import Any
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from app.db import Database
 from app.link.events import LoopEvent
+from app.prediction.judgement import Judged
 from app.recording.clerk import OpenRun
-from app.recording.outcome import Ending
+from app.recording.outcome import Ending, Outcome
 from app.recording.run_file import Recorded
 from app.runs import repository
+from app.runs.measuring import Measurer, Subject
 from app.runs.models import Run
+from app.runs.verdicts import criterion_rows, measurement_rows
+
+_log = logging.getLogger(__name__)
+_LONGEST_REASON = 500
 
 _FROZEN = (
     *(
@@ -28,11 +36,22 @@ _FROZEN = (
 )
 
 
+class _Result(NamedTuple):
+    """What measuring came to; `trouble` is a sentence where it failed."""
+
+    judged: Judged | None
+    trouble: str | None = None
+
+
 class Ledger:
     """Writes into the database what the recorder saw; `changed` is called after each run's change."""
 
-    def __init__(self, database: Database, changed: Callable[[], None]) -> None:
+    def __init__(
+        self, database: Database, runs_dir: Path, measure: Measurer, changed: Callable[[], None]
+    ) -> None:
         self._database = database
+        self._runs_dir = runs_dir
+        self._measure = measure
         self._changed = changed
 
     def open_runs(self) -> Sequence[OpenRun]:
@@ -54,13 +73,48 @@ class Ledger:
                 repository.add_events(session, [_row(run_id, event) for event in events])
 
     def ended(self, run_id: int, recorded: Recorded, ending: Ending) -> None:
-        """It is over, and its recording is complete."""
+        """It is over, and its recording is complete: measure it, and write down what came of it."""
+        result = self._measured(run_id, recorded, ending)
         with self._database.writing() as session:
-            run = repository.get(session, run_id)
+            run = repository.to_change(session, run_id)
             if run is None:
                 return
             _close(run, recorded, ending)
+            if result.trouble:
+                run.reason = " ".join(filter(None, [run.reason, result.trouble]))[:_LONGEST_REASON]
+            if result.judged is not None:
+                run.verdict = result.judged.verdict.value
+                measurements = measurement_rows(run_id, result.judged)
+                criteria = criterion_rows(run_id, result.judged)
+                repository.set_measured(session, run_id, measurements, criteria)
         self._changed()
+
+    def _measured(self, run_id: int, recorded: Recorded, ending: Ending) -> _Result:
+        """Outside of any transaction, for it may take a minute. Nothing in it may lose the run."""
+        subject = self._subject(run_id, recorded, ending)
+        if subject is None or recorded.ticks == 0:
+            return _Result(None)
+        try:
+            return _Result(self._measure(subject))
+        except Exception as error:
+            _log.exception("run %d could not be measured", run_id)
+            return _Result(None, f"It could not be measured: {error}")
+
+    def _subject(self, run_id: int, recorded: Recorded, ending: Ending) -> Subject | None:
+        with self._database.reading() as session:
+            run = repository.get(session, run_id)
+            return (
+                None
+                if run is None
+                else Subject(
+                    folder=self._runs_dir / str(run_id),
+                    definition=run.definition,
+                    controller=run.controller,
+                    period_s=run.period_ns * 1e-9,
+                    first_tick=recorded.first_tick if recorded.first_tick >= 0 else None,
+                    completed=ending.outcome is Outcome.COMPLETED,
+                )
+            )
 
     def frozen(self, run_id: int) -> dict[str, Any]:
         """The definition, settings and conditions of a run, for its file."""
