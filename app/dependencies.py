@@ -9,6 +9,7 @@ from fastapi.requests import HTTPConnection
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
 from app.histories.store import Store
+from app.prediction.service import Predictions
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.runs.results import Results
@@ -67,6 +68,10 @@ def _storage(this: ThisConsole) -> Storage:
     return this.storage
 
 
+def _predictions(this: ThisConsole) -> Predictions:
+    return this.predictions
+
+
 def _starter(this: ThisConsole) -> Starter:
     return this.starter
 
@@ -81,4 +86,5 @@ RunsService = Annotated[Runs, Depends(_runs)]
 ResultsService = Annotated[Results, Depends(_results)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
 StorageService = Annotated[Storage, Depends(_storage)]
+PredictionsService = Annotated[Predictions, Depends(_predictions)]
 StarterService = Annotated[Starter, Depends(_starter)]

@@ -21,9 +21,11 @@ from app.errors import Refusal
 from app.health import router as health_router
 from app.histories.router import router as histories_router
 from app.live.router import router as live_router
+from app.prediction.router import router as predictions_router
 from app.presets import Presets, load_presets
 from app.problems import install_handlers
 from app.rigs.router import router as rig_router
+from app.runs.results_router import router as results_router
 from app.runs.router import router as runs_router
 from app.runs.samples_router import router as samples_router
 from app.security import Guard, known_hosts
@@ -71,10 +73,12 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         health_router,
         rig_router,
         texts_router,
+        predictions_router,
         tests_router,
         histories_router,
         runs_router,
         samples_router,
+        results_router,
         storage_router,
         live_router,
     ):

@@ -107,6 +107,7 @@ class Console:
         sweep(self.settings.runs_dir, self._clerk)
         close_orphans(self.settings.runs_dir, self._clerk, life.name if life else None)
         self.recorder.start()
+        self.predictions.warm_up()
         self.storage.retention.finish_removing()
         self._watcher.start()
 

@@ -100,6 +100,7 @@ class Play:
             if not self.held:
                 rig.advance(CHUNK_TICKS)
         self._read_events()
+        self.watch.end()
         progress(1.0)
 
     @property

@@ -1,7 +1,5 @@
 """A prediction: the test run on the virtual rig as the console has it, told as margins, peaks and a verdict."""
 
-import hashlib
-import json
 import math
 import time
 from dataclasses import dataclass, replace
@@ -11,10 +9,10 @@ from app.analysis.measurements import MEASUREMENTS
 from app.definitions.definition import Definition
 from app.definitions.limits import RIG
 from app.definitions.outline import outline
-from app.documents.writing import to_data
 from app.errors import Refusal
 from app.prediction.agreement import same_ticks
 from app.prediction.judgement import Judged, Judgement
+from app.prediction.key import key_of
 from app.prediction.margins import margins_of
 from app.prediction.play import Progress, ignore
 from app.prediction.schemas import (
@@ -33,7 +31,6 @@ from app.prediction.shortening import Shortened, shorten
 from app.prediction.through import Through, run_through
 from app.prediction.verdict import Findings, Worst, reasons_of, verdict_of
 from app.prediction.watch import Watch
-from app.settings import VERSION
 
 _OF_BLOCK = (
     *("force_error_rms_n", "force_error_peak_n", "peak_force_n"),
@@ -50,18 +47,10 @@ class Predicted:
     through: Through | None
     same_ticks: int  # of the program, over which prediction and test are one and the same
 
-
-def key_of(setup: Setup) -> str:
-    """What a prediction depends on, as a hash: the same key is the same prediction."""
-    parts = {
-        "definition": to_data(setup.definition),
-        "controller": to_data(setup.controller),
-        "interlocks": to_data(setup.interlocks),
-        "rig": setup.rig.model_dump(mode="json"),
-        "seed": setup.seed,
-        "version": VERSION,
-    }
-    return hashlib.sha256(json.dumps(parts, sort_keys=True).encode()).hexdigest()
+    @property
+    def nbytes(self) -> int:
+        """What it takes in memory, nearly."""
+        return 100_000 + (0 if self.through is None else self.through.series.nbytes)
 
 
 def predict(setup: Setup, progress: Progress = ignore) -> Predicted:
@@ -133,8 +122,8 @@ def _impossible(setup: Setup, refusal: Refusal, took_s: float) -> Prediction:
         predicted_s=0.0,
         shortened=[],
         margins=[],
-        valve=None,
-        peaks=None,
+        valve=Valve(peak=0.0, saturation_share=0.0, longest_saturation_s=0.0),
+        peaks=Peaks(**dict.fromkeys(Peaks.model_fields)),
         blocks=[],
         criteria=[],
         outcome="failed",

@@ -65,14 +65,17 @@ class Valve(BaseModel):
 
 
 class Peaks(BaseModel):
-    """The largest magnitudes; the flow is the pump's, the droop is what its pressure lacks at the manifold."""
+    """The largest magnitudes, null where the test cannot begin.
 
-    force_n: float
-    displacement_m: float
-    velocity_m_s: float
-    supply_flow_m3_s: float
-    pressure_droop_pa: float
-    force_error_n: float
+    The flow is the pump's, through the supply line; the droop is what its pressure lacks at the manifold.
+    """
+
+    force_n: float | None
+    displacement_m: float | None
+    velocity_m_s: float | None
+    supply_flow_m3_s: float | None
+    pressure_droop_pa: float | None
+    force_error_n: float | None
 
 
 class MeasurementOut(BaseModel):
@@ -118,8 +121,8 @@ class Prediction(BaseModel):
     predicted_s: float
     shortened: list[CutOut]
     margins: list[Margin]
-    valve: Valve | None
-    peaks: Peaks | None
+    valve: Valve
+    peaks: Peaks
     blocks: list[BlockPrediction]
     criteria: list[CriterionOut]
     outcome: str

@@ -28,6 +28,11 @@ class Series:
     force_n: npt.NDArray[np.float32]
     displacement_m: npt.NDArray[np.float32]
 
+    @property
+    def nbytes(self) -> int:
+        """What both take."""
+        return self.force_n.nbytes + self.displacement_m.nbytes
+
     def chunks(self) -> Iterable[dict[str, Any]]:
         """As `app.analysis.predicted.Predicted` takes it."""
         yield {"program_tick": np.arange(len(self.force_n)), "force_n": self.force_n}
@@ -52,8 +57,7 @@ class Through:
 
 def series_of(watch: Watch) -> Series:
     """What a watch has kept."""
-    kept = int(watch.seen["kept"])
-    return Series(watch.force_n[:kept], watch.displacement_m[:kept])
+    return Series(watch.force_n, watch.displacement_m)
 
 
 class Passage:

@@ -171,7 +171,7 @@ def _amplitude(found: Findings) -> Iterator[Reason]:
 
 def _droop(found: Findings) -> Iterator[Reason]:
     droop_pa = found.peaks.pressure_droop_pa
-    if droop_pa > DROOP_SHARE * found.supply_pa:
+    if droop_pa is not None and droop_pa > DROOP_SHARE * found.supply_pa:
         write = QUANTITIES[Quantity.SUPPLY_PRESSURE_PA].write
         text = (
             f"The supply pressure would droop by {write(droop_pa)} of {write(found.supply_pa)}:"

@@ -70,6 +70,13 @@ class Watch:
             self.displacement_m,
         )
 
+    def end(self) -> None:
+        """Let go of what only the looking took."""
+        kept = int(self.seen["kept"])
+        self.force_n = self.force_n[:kept].copy()
+        self.displacement_m = self.displacement_m[:kept].copy()
+        self._lows, self._ends = np.zeros(1), np.zeros(1, np.int64)
+
     @property
     def seen(self) -> Any:
         """The WATCH record."""
