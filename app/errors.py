@@ -42,6 +42,9 @@ class Code(StrEnum):
     NO_PROGRAM = "no_program"
     BUSY = "busy"
     NO_SPACE = "no_space"
+    PREDICTION_REFUSED = "prediction_refused"
+    PREDICTION_PENDING = "prediction_pending"
+    OVERRIDE_NEEDED = "override_needed"
     DATABASE_UNAVAILABLE = "database_unavailable"
     INTERNAL = "internal"
 

@@ -50,6 +50,9 @@ STATUS: Mapping[Code, int] = {
     Code.NO_PROGRAM: 409,
     Code.BUSY: 409,
     Code.NO_SPACE: 409,
+    Code.PREDICTION_REFUSED: 409,
+    Code.PREDICTION_PENDING: 409,
+    Code.OVERRIDE_NEEDED: 409,
     Code.DATABASE_UNAVAILABLE: 503,
     Code.INTERNAL: 500,
 }

@@ -23,13 +23,14 @@ from app.recording.recorder import Recorder
 from app.recording.recovery import close_orphans, sweep
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
+from app.runs.entering import Frozen
 from app.runs.ledger import Ledger
 from app.runs.measuring import measure
 from app.runs.plans import Plans
 from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
-from app.runs.starting import Frozen, Starter
+from app.runs.starting import Needs, Starter
 from app.settings import Settings
 from app.storage.service import Storage, StorageSettings
 from app.storage.watcher import Watcher
@@ -76,14 +77,15 @@ class Console:
         )
         self.run_windows = RunWindows(self.database, settings.runs_dir)
         self.predictions = Predictions(presets.controller, presets.interlocks, presets.rig)
-        self.starter = Starter(
-            self.database,
-            self.link,
-            self.recorder,
-            frozen,
-            plans,
+        needs = Needs(
+            self.catalogue,
+            self.predictions,
+            self.storage,
             self.rig.why_not_start,
             self._clerk.never_began,
+        )
+        self.starter = Starter(
+            self.database, settings.runs_dir, self.link, self.recorder, frozen, plans, needs
         )
         self.broadcaster = Broadcaster(lambda: self.link.life, self.status.read)
         self.command_threads = ThreadPoolExecutor(8, thread_name_prefix="commands")

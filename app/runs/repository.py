@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from sqlalchemy import delete, insert, select, update
+from sqlalchemy import delete, exists, func, insert, not_, or_, select, update
 from sqlalchemy.dialects.postgresql import insert as postgresql_insert
 from sqlalchemy.dialects.sqlite import insert as sqlite_insert
 from sqlalchemy.orm import Session
@@ -99,6 +99,19 @@ def freeze(session: Session, body: Any) -> int:
         _insert_new(session, Document, [{"hash": key, "body": body}])
         found = session.scalars(query).one()
     return found
+
+
+def newest_document(session: Session) -> int:
+    """The number of the newest document, 0 where there is none."""
+    return session.scalar(select(func.max(Document.id))) or 0
+
+
+def forget(session: Session, documents: Iterable[int]) -> None:
+    """Remove documents, those that a run is made with excepted."""
+    columns = [column for column in Run.__table__.c if column.foreign_keys]
+    used = [exists().where(column == Document.id) for column in columns]
+    query = delete(Document).where(Document.id.in_(list(documents)), not_(or_(*used)))
+    session.execute(query)
 
 
 def _insert_new(session: Session, table: type[Base], rows: list[dict[str, Any]]) -> None:
