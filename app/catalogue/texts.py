@@ -28,16 +28,18 @@ def read(reader: Reader, text: TestText) -> Written | Refusal:
 def check(reader: Reader, text: TestText) -> TestChecked:
     """A test as data and as text with what it comes to, or everything that is wrong with it.
 
-    What is wrong with a test does not keep it from being turned from data into text or back.
+    Both say what was written and no more: defaults are not filled in. What is wrong with a test does
+    not keep it from being turned from data into text or back.
     """
     written = read(reader, text)
     if isinstance(written, Refusal):
         return _wrong(reader, text, written)
+    as_text = text.yaml is not None
     return TestChecked(
         valid=True,
         problems=[],
-        definition=written.data,
-        yaml=written.yaml,
+        definition=(_data_in(written.yaml) or written.data) if as_text else text.definition,
+        yaml=written.yaml if as_text else data_to_yaml(text.definition),
         outline=written.outline,
     )
 
