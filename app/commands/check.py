@@ -40,7 +40,7 @@ def _print(definition: Definition, found: Outline) -> None:
 
 def _table(name: str, unit: str) -> Table:
     table = Table()
-    table.add_column(name)
+    table.add_column(name, no_wrap=True)
     for heading in ("starts (s)", "lasts (s)", "cycles", f"least ({unit})", f"greatest ({unit})"):
         table.add_column(heading, justify="right")
     return table

@@ -16,8 +16,7 @@ import numpy.typing as npt
 from app.definitions.limits import RIG
 from app.histories.history import History, from_values
 
-_CLIPPED = 0.9  # of the peak
-_ROUNDS = 60
+_CLIPPED = np.linspace(0.3, 0.95, 200)  # of the peak, round by round
 _LARGEST = 1 << 15  # samples of a period whose phases are worth the rounds
 
 
@@ -65,20 +64,18 @@ def period_of(grid: Grid) -> History:
 
 
 def _phases(grid: Grid) -> npt.NDArray[np.float64]:
-    """(lines,) rad, of a low crest."""
+    """(lines,) rad, of a low crest: 1.5 for lines side by side, 2.2 for lines at equal ratios."""
     lines = list(grid.lines)
-    count = len(lines)
-    schroeder = -np.pi * np.arange(count) * (np.arange(count) - 1) / count
-    size = 1 << (16 * max(lines) - 1).bit_length()
-    if size > _LARGEST:
-        return schroeder
-    phases, best, least = schroeder, schroeder, math.inf
-    for _ in range(_ROUNDS):
+    # Each line has its turn in the period: the delay grows with the power that lies below.
+    delay = (np.arange(len(lines)) + 0.5) / len(lines)
+    best = phases = -2 * np.pi * np.cumsum(np.diff(lines, prepend=0) * delay)
+    size, least = 1 << (16 * max(lines) - 1).bit_length(), math.inf
+    for clipped in _CLIPPED if size <= _LARGEST else ():
         spectrum = np.zeros(size // 2 + 1, np.complex128)
         spectrum[lines] = np.exp(1j * phases)
         wave = np.fft.irfft(spectrum, size)
         peak = float(np.abs(wave).max())
         if peak < least:
             best, least = phases, peak
-        phases = np.angle(np.fft.rfft(np.clip(wave, -_CLIPPED * peak, _CLIPPED * peak))[lines])
-    return best
+        phases = np.angle(np.fft.rfft(np.clip(wave, -clipped * peak, clipped * peak))[lines])
+    return np.asarray(best)
