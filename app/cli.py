@@ -83,6 +83,33 @@ def bench(
     raise typer.Exit(run(name, json))
 
 
+@cli.command()
+def backup(
+    file: Annotated[
+        Path, typer.Argument(help="The archive to make; `.zst` at its end compresses.")
+    ],
+    data: Data = None,
+    without_samples: Annotated[bool, typer.Option("--without-samples")] = False,
+    json: Json = False,
+) -> None:
+    """Back up everything in one archive, while the console runs."""
+    from app.commands.backup import run_backup as run
+
+    raise typer.Exit(run(file, data, not without_samples, json))
+
+
+@cli.command()
+def restore(
+    file: Annotated[Path, typer.Argument(help="An archive that backup made.")],
+    data: Annotated[Path, typer.Option("--data", help="A new directory, or an empty one.")],
+    json: Json = False,
+) -> None:
+    """Put a backup back, into a directory of its own."""
+    from app.commands.backup import run_restore as run
+
+    raise typer.Exit(run(file, data, json))
+
+
 @database.command()
 def upgrade(data: Data = None) -> None:
     """Bring the database to the present revision."""
