@@ -1,7 +1,5 @@
 """The tables of a run's acquisitions: a Parquet file each, which appears whole or not at all."""
 
-import os
-import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,6 +9,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from app.analysis.acquisition.table import Column, Rows
+from app.recording.whole_file import whole_file
 
 BATCH_ROWS = 16_384
 
@@ -53,21 +52,13 @@ def writing(path: Path, columns: Sequence[Column]) -> Iterator[AcquisitionWriter
 
     Raises `OSError`.
     """
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    temporary = Path(name)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            with pq.ParquetWriter(file, _schema(columns), compression="zstd") as writer:
-                table = AcquisitionWriter(columns, writer)
-                yield table
-                table.flush()
-            file.flush()
-            os.fchmod(file.fileno(), 0o644)
-            os.fsync(file.fileno())
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+    with (
+        whole_file(path) as file,
+        pq.ParquetWriter(file, _schema(columns), compression="zstd") as writer,
+    ):
+        table = AcquisitionWriter(columns, writer)
+        yield table
+        table.flush()
 
 
 def read_rows(path: Path) -> Iterator[Rows]:

@@ -25,6 +25,7 @@ from app.interlocks.record import to_record as interlocks_record
 from app.recording.clerk import Clerk
 from app.recording.outcome import Ending, Outcome
 from app.recording.parts import PartWriter
+from app.recording.recovery import close_orphans
 from app.recording.run_file import Recorded
 from app.runs import repository
 from app.runs.acquisition_files import acquisition_path
@@ -233,6 +234,20 @@ def test_a_bug_in_measuring_does_not_lose_the_run(
     assert lab.run().reason == "It could not be measured: by zero"
     assert "could not be measured" in caplog.text
     assert pq.read_metadata(lab.runs_dir / "1" / "run.parquet").num_rows == len(records)
+
+
+def test_a_run_left_open_by_a_kill_is_measured_at_the_next_start(
+    tmp_path: Path, records: npt.NDArray[Any]
+) -> None:
+    lab = _Lab(tmp_path, _data({"measurement": "cycles", "at_least": 1}))
+    lab.record(records[:8000])
+    close_orphans(lab.runs_dir, lab._clerk, None)
+    lab._clerk.work_off()
+    assert (lab.run().outcome, lab.run().verdict) == ("interrupted", "unset")
+    found = lab.results.measurements(1)
+    assert isinstance(found, RunMeasurements)
+    assert _run_values(found)["cycles"] == 30
+    assert acquisition_path(lab.runs_dir / "1", 1).exists()
 
 
 def test_a_run_without_a_tick_has_no_verdict(tmp_path: Path, records: npt.NDArray[Any]) -> None:
