@@ -193,9 +193,9 @@ export class Editor {
     this.failure = "";
     this.faults = problems;
     const other = now.from === "form" ? { yaml: now.agreed ? now.yaml : yaml } : { definition };
-    const agreed = Object.values(other).every((side) => side !== null);
+    const agreed = Object.values(other).every((side) => side !== null && side !== undefined);
     if (agreed) this.history = amend(this.history, { ...now, ...(other as Partial<Written>), agreed });
-    this.sound = agreed && outline !== null && problems.length === 0 ? { yaml: this.now.yaml, outline } : null;
+    this.sound = agreed && outline && problems.length === 0 ? { yaml: this.now.yaml, outline } : null;
     this.keep();
   }
 

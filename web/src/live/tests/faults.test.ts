@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { draftIds, dropDraft, keepDraft, keptDraft } from "./drafts";
-import { faultsAt, faultsBeside, faultsByLine, faultsWithin } from "./faults";
+import { faultsAt, faultsBeside, faultsByLine, faultsWithin, inFormUnits } from "./faults";
 import { BLOCK_KINDS, keysOf, kindOf, MOTION_KINDS } from "./kinds";
 import type { Fault } from "./types";
 
@@ -21,6 +21,16 @@ describe("faults", () => {
     const lines = faultsByLine(FAULTS);
     expect([...lines.keys()].sort()).toEqual([6, 7]);
     expect(lines.get(7)).toBe("blocks[1].to_n: wrong blocks[1].to_n\nblocks[11].to_n: wrong blocks[11].to_n");
+  });
+});
+
+describe("a sentence in the units of the form", () => {
+  it("turns figures in SI, and nothing else", () => {
+    expect(inFormUnits("60,000 N must be at most 50,000 N")).toBe("60 kN must be at most 50 kN");
+    expect(inFormUnits("0.05 m at 50 Hz reaches 15.708 m/s")).toBe("50 mm at 50 Hz reaches 15708 mm/s");
+    expect(inFormUnits("1e+12 N/s must be at most 2,000,000 N/s")).toBe("1000000000 kN/s must be at most 2000 kN/s");
+    for (const text of ["3 minutes, 5 Nights", "v2 N", "must be a number, is the text '5'"])
+      expect(inFormUnits(text)).toBe(text);
   });
 });
 

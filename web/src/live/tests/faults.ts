@@ -1,5 +1,6 @@
 // Where a fault is shown: at the field of the form and at the line of the YAML that it is about.
 
+import { FORCE, FORCE_RATE, LENGTH, SPEED, toEntry, type Quantity } from "../../units";
 import { isWithin, parsePath, type Path } from "./tree";
 import type { Fault } from "./types";
 
@@ -30,5 +31,15 @@ export function faultsByLine(faults: readonly Fault[]): ReadonlyMap<number, stri
   }
   return lines;
 }
+
+const FIGURE = /(?<![\w.])(-?\d[\d,]*(?:\.\d+)?(?:e[+-]?\d+)?) (N\/s|m\/s|N|m)(?![\w/])/g;
+const BY_UNIT: Readonly<Record<string, Quantity>> = { N: FORCE, "N/s": FORCE_RATE, m: LENGTH, "m/s": SPEED };
+
+/** A sentence of the server's in the units of the form: `60 kN must be at most 50 kN`. */
+export const inFormUnits = (message: string): string =>
+  message.replace(FIGURE, (said: string, figure: string, unit: string) => {
+    const [quantity, si] = [BY_UNIT[unit], Number(figure.replaceAll(",", ""))];
+    return quantity === undefined || !Number.isFinite(si) ? said : `${toEntry(quantity, si)} ${quantity.symbol}`;
+  });
 
 const samePath = (a: Path, b: Path): boolean => a.length === b.length && isWithin(a, b);

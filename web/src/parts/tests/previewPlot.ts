@@ -39,6 +39,8 @@ export class PreviewPlot {
     private readonly quantity: Quantity,
     private readonly scale: ScaleOptions,
     private readonly timeLabels: boolean,
+    /** Whether the blocks' numbers are written above them. */
+    private readonly numbered: boolean,
     private readonly events: PreviewEvents,
   ) {
     this.plot = this.build();
@@ -74,7 +76,7 @@ export class PreviewPlot {
       width: this.host.clientWidth,
       height: this.host.clientHeight,
       legend: { show: false },
-      padding: padding(),
+      padding: this.padding(),
       scales: SCALES,
       axes: axes({ quantity: this.quantity, timeLabels: this.timeLabels }),
       series: [{}, extreme, { ...extreme }],
@@ -97,6 +99,11 @@ export class PreviewPlot {
     return new uPlot(options, [[], [], []], this.host);
   }
 
+  private padding(): [number, number, number, number] {
+    const [top, right, bottom, left] = padding();
+    return [this.numbered ? 2 * top : top, right, bottom, left];
+  }
+
   /** A line where a block begins, its number where there is room, the one being edited on lighter ground. */
   private drawBlocks(u: uPlot): void {
     const { ctx, bbox } = u;
@@ -115,7 +122,8 @@ export class PreviewPlot {
       ctx.fillStyle = colour("--line");
       ctx.fillRect(Math.round(from), bbox.top, Math.max(1, devicePixelRatio), bbox.height);
       ctx.fillStyle = colour("--ink-2");
-      if (to - from >= LEAST_BLOCK_PX * devicePixelRatio) ctx.fillText(String(number), from + size / 3, bbox.top + 1);
+      if (this.numbered && to - from >= LEAST_BLOCK_PX * devicePixelRatio)
+        ctx.fillText(String(number), from + size / 3, bbox.top - size / 2);
     }
     ctx.restore();
   }
@@ -137,7 +145,13 @@ export class PreviewPlot {
     ctx.beginPath();
     ctx.arc(x, y, PEAK_PX * devicePixelRatio, 0, 2 * Math.PI);
     ctx.stroke();
-    ctx.fillText(withUnit(this.quantity, peak.value), x + (left ? -size : size), y);
+    const text = withUnit(this.quantity, peak.value);
+    const at = Math.min(Math.max(y, bbox.top + size * 0.7), bbox.top + bbox.height - size * 0.7);
+    const width = ctx.measureText(text).width + size / 2;
+    ctx.fillStyle = colour("--well");
+    ctx.fillRect(left ? x - size * 0.75 - width : x + size * 0.75, at - size * 0.65, width, size * 1.3);
+    ctx.fillStyle = colour("--ink");
+    ctx.fillText(text, x + (left ? -size : size), at);
     ctx.restore();
   }
 
