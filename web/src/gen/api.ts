@@ -93,6 +93,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rig/resume": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Preview Resume
+         * @description The setpoints that Resume would lead through, played by the loop's own generator.
+         */
+        get: operations["previewResume"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs": {
         parameters: {
             query?: never;
@@ -927,7 +947,7 @@ export interface components {
          * @description Every reason to refuse. Programs match on these; sentences may change.
          * @enum {string}
          */
-        Code: "invalid_request" | "not_found" | "method_not_allowed" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "no_program" | "busy" | "no_space" | "database_unavailable" | "internal";
+        Code: "invalid_request" | "not_found" | "method_not_allowed" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "no_program" | "busy" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
         /**
          * CommandDone
          * @description The loop has taken the command in this tick.
@@ -1554,6 +1574,18 @@ export interface components {
             peak_force_n: number;
         };
         /**
+         * Permissive
+         * @description Something that has to be so for a test to start; `text` says what it needs where it is not.
+         */
+        Permissive: {
+            /** Met */
+            met: boolean;
+            /** Name */
+            name: string;
+            /** Text */
+            text: string;
+        };
+        /**
          * Prediction
          * @description A test run on the virtual rig before it runs on the real one.
          */
@@ -1738,6 +1770,28 @@ export interface components {
             trouble: string | null;
         };
         /**
+         * ResumePreview
+         * @description The setpoints that Resume would lead through, from that moment on: least and greatest of each.
+         */
+        ResumePreview: {
+            /** Block */
+            block: number;
+            /** Cycle */
+            cycle: number;
+            /** Displacement Max M */
+            displacement_max_m: number[];
+            /** Displacement Min M */
+            displacement_min_m: number[];
+            /** Force Max N */
+            force_max_n: number[];
+            /** Force Min N */
+            force_min_n: number[];
+            /** Text */
+            text: string;
+            /** Time S */
+            time_s: number[];
+        };
+        /**
          * RetentionChange
          * @description A new rule; `based_on` is the revision that it was made from, `apply` does it at once.
          */
@@ -1816,6 +1870,8 @@ export interface components {
             mode: components["schemas"]["ModeWord"];
             /** Mode Since S */
             mode_since_s: number | null;
+            /** Permissives */
+            permissives: components["schemas"]["Permissive"][];
             /** Readings */
             readings: {
                 [key: string]: number | null;
@@ -2624,6 +2680,35 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CommandDone"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    previewResume: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ResumePreview"];
                 };
             };
             /** @description A problem document (RFC 9457) */
