@@ -23,6 +23,7 @@ from sqlalchemy import (
     TypeDecorator,
     create_engine,
     event,
+    make_url,
 )
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import DeclarativeBase, Session
@@ -38,6 +39,15 @@ _PRAGMAS = (
     f"PRAGMA busy_timeout={BUSY_TIMEOUT_MS}",
 )
 
+_POSTGRESQL: dict[str, Any] = {
+    "pool_pre_ping": True,  # the server may have been restarted
+    "pool_size": 10,
+    "connect_args": {
+        "application_name": "forcerig",
+        "connect_timeout": 10,
+        "options": f"-c synchronous_commit=on -c lock_timeout={BUSY_TIMEOUT_MS}",
+    },
+}
 
 # Ticks outgrow 32 bits in six days. SQLite has integers of one kind, and numbers only INTEGER keys.
 BigInt = BigInteger().with_variant(Integer(), "sqlite")
@@ -80,12 +90,21 @@ def _prepare_sqlite(engine: Engine) -> None:
 
 
 class Database:
-    """An engine with its connections prepared, and sessions on it."""
+    """An engine with its connections prepared, and sessions on it: SQLite or PostgreSQL, by URL."""
 
     def __init__(self, url: str) -> None:
-        self.engine = create_engine(url)
-        if self.engine.dialect.name == "sqlite":
+        address = make_url(url)
+        sqlite = address.get_backend_name() == "sqlite"
+        if not sqlite:
+            address = address.set(drivername="postgresql+psycopg")
+        self.engine = create_engine(address, **({} if sqlite else _POSTGRESQL))
+        if sqlite:
             _prepare_sqlite(self.engine)
+        self._reader = self.engine
+        if not sqlite:
+            self._reader = self.engine.execution_options(
+                isolation_level="REPEATABLE READ", postgresql_readonly=True
+            )
         self._writer = self.engine.execution_options(writes=True)
 
     def upgrade(self, revision: str = "head") -> None:
@@ -125,8 +144,8 @@ class Database:
 
     @contextmanager
     def reading(self) -> Iterator[Session]:
-        """A session that only reads."""
-        with Session(self.engine) as session:
+        """A session that only reads, all of it from one moment."""
+        with Session(self._reader) as session:
             yield session
 
     @contextmanager

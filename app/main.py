@@ -29,7 +29,7 @@ from app.runs.results_router import router as results_router
 from app.runs.router import router as runs_router
 from app.runs.samples_router import router as samples_router
 from app.security import Guard, known_hosts
-from app.serving import CannotServe, bind, check, hold_data_folder, url_of
+from app.serving import CannotServe, bind, check, hold_data_folder, hold_database, url_of
 from app.settings import VERSION, Settings
 from app.static_files import serve_console
 from app.storage.router import router as storage_router
@@ -108,7 +108,11 @@ def serve(host: str | None = None, port: int | None = None, data_dir: Path | Non
         # Uvicorn has its own handlers while it runs, and raises what it caught again afterwards.
         signal.signal(number, lambda *_: None)
     try:
-        with hold_data_folder(settings.data_dir), bind(settings.host, settings.port) as listener:
+        with (
+            hold_data_folder(settings.data_dir),
+            hold_database(settings.database_address),
+            bind(settings.host, settings.port) as listener,
+        ):
             check(settings)
             presets = load_presets(settings)
             if isinstance(presets, Refusal):

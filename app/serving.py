@@ -8,11 +8,16 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from sqlalchemy import func, make_url, select
+from sqlalchemy.exc import ArgumentError, OperationalError
+
+from app.db import Database
 from app.link.paths import block_path
 from app.link.supervisor import BlockError, left_over
 from app.settings import Settings
 
 _BACKLOG = 256
+_CONSOLE_LOCK = 0x666F726365726967  # "forcerig", of the advisory locks of a database
 
 
 class CannotServe(Exception):
@@ -36,6 +41,38 @@ def hold_data_folder(folder: Path) -> Iterator[None]:
                 "or give another with --data"
             ) from None
         yield
+
+
+@contextmanager
+def hold_database(address: str) -> Iterator[None]:
+    """Hold a PostgreSQL database against a second console: each takes the other's runs for its own.
+
+    A SQLite file lies in the data directory, which is held already, unless somebody moved it.
+    """
+    try:
+        url = make_url(address)
+    except ArgumentError:
+        raise CannotServe("FORCERIG_DATABASE_URL is no URL of a database") from None
+    kind = url.get_backend_name()
+    if kind not in ("sqlite", "postgresql"):
+        raise CannotServe(f"no database of the kind {kind}: use sqlite:/// or postgresql://")
+    if kind == "sqlite":
+        yield
+        return
+    database = Database(address)
+    try:
+        with database.engine.connect() as connection:
+            if not connection.scalar(select(func.pg_try_advisory_lock(_CONSOLE_LOCK))):
+                raise CannotServe(
+                    f"another console uses the database {url.database}: a database each"
+                )
+            connection.commit()  # the lock is the session's, not the transaction's
+            yield
+    except OperationalError as error:
+        first = str(error.orig).partition("\n")[0]
+        raise CannotServe(f"cannot use the database {url.database}: {first}") from error
+    finally:
+        database.close()
 
 
 def check(settings: Settings) -> None:

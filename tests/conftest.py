@@ -1,6 +1,68 @@
-"""What all tests share: property tests know no deadline, for compiling and noisy machines break any."""
+"""What all tests share: no deadlines for property tests, and databases of both kinds."""
 
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
 from hypothesis import settings
 
+from app.db import Database
+from tests.postgres import Server, programs, serving
+
+# Compiling and noisy machines break any deadline.
 settings.register_profile("forcerig", deadline=None)
 settings.load_profile("forcerig")
+
+ON_POSTGRESQL = pytest.param("postgresql", marks=[pytest.mark.process, pytest.mark.slow])
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """`pytest tests/api --database postgresql`: the whole interface on a server of its own."""
+    kinds = ("sqlite", "postgresql")
+    parser.addoption("--database", choices=kinds, default="sqlite", help="of the tests' console")
+
+
+@pytest.fixture(scope="session")
+def postgres() -> Iterator[Server]:
+    folder = programs()
+    if folder is None:
+        pytest.skip("there is no PostgreSQL server here (apt-get install postgresql)")
+    with serving(folder) as server:
+        yield server
+
+
+@pytest.fixture(scope="session")
+def migrated_template(postgres: Server) -> str:
+    """A database with its tables, to copy."""
+    name = postgres.new_database()
+    database = Database(postgres.url(name))
+    database.upgrade()
+    database.close()
+    return name
+
+
+@pytest.fixture(params=["sqlite", ON_POSTGRESQL])
+def empty_database(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Database]:
+    """A database without tables, of either kind."""
+    if request.param == "sqlite":
+        url = f"sqlite:///{tmp_path / 'test.sqlite'}"
+    else:
+        server: Server = request.getfixturevalue("postgres")
+        url = server.url(server.new_database())
+    database = Database(url)
+    yield database
+    database.close()
+
+
+@pytest.fixture(params=["sqlite", ON_POSTGRESQL])
+def database(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Database]:
+    """A database with its tables, of either kind."""
+    if request.param == "sqlite":
+        made = Database(f"sqlite:///{tmp_path / 'test.sqlite'}")
+        made.upgrade()
+    else:
+        server: Server = request.getfixturevalue("postgres")
+        template = request.getfixturevalue("migrated_template")
+        made = Database(server.url(server.new_database(template)))
+    yield made
+    made.close()

@@ -45,7 +45,7 @@ def patient_interlocks(folder: Path) -> Path:
 class ConsoleProcess:
     """Starts, kills and restarts the console on one data directory."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, database_url: str | None = None) -> None:
         self.data = folder / "data"
         self.block = block_path(self.data)
         self._log = folder / "console.log"
@@ -53,6 +53,8 @@ class ConsoleProcess:
             "FORCERIG_DATA_DIR": str(self.data),
             "FORCERIG_INTERLOCKS_FILE": str(patient_interlocks(folder)),
         }
+        if database_url is not None:
+            self._environment["FORCERIG_DATABASE_URL"] = database_url
         self._process: subprocess.Popen[bytes] | None = None
         self.url = ""
 

@@ -5,11 +5,18 @@ from collections.abc import Iterator
 import pytest
 
 from tests.console_process import ConsoleProcess
+from tests.postgres import Server
 
 
 @pytest.fixture(scope="session")
-def console(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ConsoleProcess]:
-    process = ConsoleProcess(tmp_path_factory.mktemp("console"))
+def console(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[ConsoleProcess]:
+    database_url = None
+    if request.config.getoption("--database") == "postgresql":
+        server: Server = request.getfixturevalue("postgres")
+        database_url = server.url(server.new_database())
+    process = ConsoleProcess(tmp_path_factory.mktemp("console"), database_url)
     try:
         yield process.start()
     finally:
