@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from rtcore.memory.playing import read_playing
 from rtcore.memory.rings import Batch, RingReader, event_reader, telemetry_reader
 from rtcore.memory.segment import Block
 from rtcore.memory.snapshot import read_snapshot
@@ -76,6 +77,16 @@ class Life:
     def events(self, position: int = 0) -> RingReader:
         """A reader of the events, as far back as the ring holds them."""
         return event_reader(self.block, position)
+
+    def playing(self) -> tuple[npt.NDArray[Any], npt.NDArray[Any]] | None:
+        """(2,) GENERATOR of force and motion, and the (1,) PROGRAM that they play; None where torn."""
+        states = read_playing(self.block)
+        bank = int(self.block.fields["active_program"])
+        return (
+            None
+            if states is None
+            else (states, self.block.fields["programs"][bank : bank + 1].copy())
+        )
 
     def detectors(self) -> npt.NDArray[Any]:
         """The interlock table in force, (count,) of `DETECTOR`."""

@@ -6,7 +6,7 @@ from fastapi import APIRouter
 
 from app.dependencies import CommandThreads, RigService, Status
 from app.problems import PROBLEMS, granted
-from app.rigs.schemas import ChannelOut, CommandDone, CommandRequest, RigStatus
+from app.rigs.schemas import ChannelOut, CommandDone, CommandRequest, ResumePreview, RigStatus
 from rtcore.channels import CHANNELS
 
 router = APIRouter(prefix="/api/v1", tags=["rig"], responses=PROBLEMS)
@@ -28,6 +28,12 @@ async def command_rig(
     """
     answer = await asyncio.get_running_loop().run_in_executor(threads, rig.command, body.command)
     return granted(answer)
+
+
+@router.get("/rig/resume", operation_id="previewResume")
+def preview_resume(rig: RigService) -> ResumePreview:
+    """The setpoints that Resume would lead through, played by the loop's own generator."""
+    return granted(rig.resume_preview())
 
 
 @router.get("/channels", operation_id="listChannels")

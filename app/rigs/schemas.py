@@ -136,6 +136,27 @@ class Limits(BaseModel):
     supply_pressure_pa: float | None
 
 
+class Permissive(BaseModel):
+    """Something that has to be so for a test to start; `text` says what it needs where it is not."""
+
+    name: str
+    met: bool
+    text: str
+
+
+class ResumePreview(BaseModel):
+    """The setpoints that Resume would lead through, from that moment on: least and greatest of each."""
+
+    time_s: list[float]
+    force_min_n: list[float]
+    force_max_n: list[float]
+    displacement_min_m: list[float]
+    displacement_max_m: list[float]
+    block: int
+    cycle: int
+    text: str
+
+
 class RigStatus(BaseModel):
     """Everything that is always on the screen."""
 
@@ -148,6 +169,7 @@ class RigStatus(BaseModel):
     run: RunProgress | None
     recorder: RecorderOut
     storage: StorageState
+    permissives: list[Permissive]
     commands: CommandReasons
 
 

@@ -5,7 +5,8 @@ from collections.abc import Callable
 from app.errors import Code, Refusal
 from app.link.life import Life
 from app.link.link import Link
-from app.rigs.schemas import CommandDone, CommandReasons, RigCommand
+from app.rigs.resuming import preview
+from app.rigs.schemas import CommandDone, CommandReasons, ResumePreview, RigCommand
 from rtcore.codes import Opcode
 
 
@@ -24,6 +25,10 @@ class Rig:
         if command is RigCommand.STOP and answer.code is Code.WRONG_MODE:
             return self._nothing_to_stop(answer)
         return self._in_plain_words(command, answer)
+
+    def resume_preview(self) -> ResumePreview | Refusal:
+        """What Resume would do at this moment; refused where nothing is held."""
+        return preview(self._link.life)
 
     def why_not_start(self) -> Refusal | None:
         """Why no run can be started now."""

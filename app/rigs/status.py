@@ -14,18 +14,19 @@ from app.link.words import trip_code
 from app.recording.recorder import Recorder
 from app.rigs.history import History
 from app.rigs.loop_health import loop_health
+from app.rigs.permissives import Readiness, permissives
 from app.rigs.reasons import Situation, reasons
 from app.rigs.schemas import (
-    CommandReasons,
     Limits,
     ModeWord,
+    Permissive,
     RecorderOut,
     RigStatus,
     RunProgress,
     Trip,
 )
 from app.runs.plans import Plans
-from app.storage.schemas import StorageState
+from app.storage.schemas import StorageState, StorageWord
 from rtcore.channels import CHANNELS, TELEMETRY
 from rtcore.interlocks import Comparison, Quantity
 from rtcore.modes import Mode
@@ -67,8 +68,10 @@ class StatusReader:
             ticks_in_mode = history.ticks_in_mode(int(record["tick"]))
         health = loop_health(life, record, rate_hz)
         period_s = life.period_ns * 1e-9
+        mode = Mode(int(record["mode"])) if health.alive else None
+        supply_pa, storage = float(record["supply_pressure_pa"]), self._storage()
         return RigStatus(
-            mode=ModeWord.of(Mode(int(record["mode"]))) if health.alive else self._absent(),
+            mode=self._absent() if mode is None else ModeWord.of(mode),
             mode_since_s=ticks_in_mode * period_s if health.alive else None,
             readings={name: _number(record[name]) for name in _READINGS},
             limits=self._limits(life.detectors()),
@@ -76,8 +79,9 @@ class StatusReader:
             loop=health,
             run=self._progress(life, record) if health.alive else None,
             recorder=self._recorder_out(),
-            storage=self._storage(),
-            commands=_reasons(record, trips, alive=health.alive),
+            storage=storage,
+            permissives=self._permissives(mode, _first(trips), supply_pa, storage),
+            commands=reasons(Situation(mode, _first(trips), supply_pa)),
         )
 
     def _of(self, life: Life) -> History:
@@ -87,6 +91,7 @@ class StatusReader:
 
     def _without_loop(self, life: Life | None) -> RigStatus:
         no_detectors = np.empty(0)
+        storage = self._storage()
         return RigStatus(
             mode=self._absent(),
             mode_since_s=None,
@@ -96,8 +101,24 @@ class StatusReader:
             loop=loop_health(life, _NO_RECORD, None),
             run=None,
             recorder=self._recorder_out(),
-            storage=self._storage(),
+            storage=storage,
+            permissives=self._permissives(None, None, math.nan, storage),
             commands=reasons(Situation(None, None, math.nan)),
+        )
+
+    def _permissives(
+        self, mode: Mode | None, trip: str | None, supply_pa: float, storage: StorageState
+    ) -> list[Permissive]:
+        life = self._link.life
+        return permissives(
+            Readiness(
+                mode=mode,
+                trip=trip,
+                supply_pressure_pa=supply_pa,
+                recorder_follows=life is not None and self._recorder.following is life,
+                recorder_trouble=self._recorder.state().trouble,
+                disk_is_full=storage.state is StorageWord.FULL,
+            )
         )
 
     def _absent(self) -> ModeWord:
@@ -161,10 +182,8 @@ def _trips(life: Life, record: Any, history: History) -> list[Trip]:
     return sorted(found, key=lambda trip: (not trip.first, trip.tick))
 
 
-def _reasons(record: Any, trips: list[Trip], *, alive: bool) -> CommandReasons:
-    mode = Mode(int(record["mode"])) if alive else None
-    trip = trips[0].text if trips else None
-    return reasons(Situation(mode, trip, float(record["supply_pressure_pa"])))
+def _first(trips: list[Trip]) -> str | None:
+    return trips[0].text if trips else None
 
 
 def _number(value: Any) -> float | None:

@@ -160,3 +160,23 @@ def test_a_test_or_revision_that_is_not_there_is_not_started(
     assert (answer.status_code, answer.json()["code"]) == (404, "unknown_test")
     answer = ready.http.post("/runs", json={"test_id": tests["clear"], "revision": 99})
     assert (answer.status_code, answer.json()["code"]) == (404, "unknown_revision")
+
+
+def test_a_held_run_shows_what_resume_will_do(ready: ConsoleProcess) -> None:
+    assert ready.http.get("/rig/resume").status_code == 409
+    block = {"kind": "harmonic", "amplitude_n": 2000, "frequency_hz": 5, "cycles": 100}
+    made = ready.http.post("/tests", json=_definition("Held and resumed", block)).json()["id"]
+    _predicted(ready, f"/tests/{made}/prediction", {})
+    run_id = ready.start_run(made)
+    wait_for(lambda: (ready.status()["run"] or {}).get("cycle", 0) >= 1, "a counted cycle")
+    assert not {p["name"]: p["met"] for p in ready.status()["permissives"]}["idle"]
+    assert ready.command("hold").is_success
+    wait_for(lambda: ready.mode() == "holding", "the hold")
+    shown = ready.http.get("/rig/resume").json()
+    assert max(shown["force_max_n"]) == pytest.approx(2000, rel=0.01)
+    assert shown["block"] == 0
+    assert shown["cycle"] >= 1
+    assert "block 1 goes on" in shown["text"]
+    assert ready.command("resume").is_success
+    assert ready.command("stop").is_success
+    ready.ended_run(run_id)

@@ -26,7 +26,7 @@ def reader(
     life: Life | None, *, starting: bool = False, plans: Plans | None = None
 ) -> StatusReader:
     link = cast(Link, SimpleNamespace(life=life, starting=starting))
-    recorder = cast(Recorder, SimpleNamespace(state=lambda: IDLE))
+    recorder = cast(Recorder, SimpleNamespace(state=lambda: IDLE, following=life))
     return StatusReader(link, recorder, plans or Plans(), 21e6, lambda: ROOM)
 
 
@@ -112,3 +112,18 @@ def test_the_run_under_way_with_what_is_expected_of_it(loop: WrittenBlock) -> No
         "elapsed_s": pytest.approx(40 * PERIOD_S),
         "duration_s": 4.8,
     }
+
+
+def test_what_is_missing_for_a_start_is_told(loop: WrittenBlock) -> None:
+    loop.go(Mode.OFF)
+    loop.ticks(1)
+    found = {p.name: p.met for p in read(loop).permissives}
+    assert found == {
+        "loop": True,
+        "interlocks": True,
+        "pressure": False,
+        "recorder": True,
+        "storage": True,
+        "idle": True,
+    }
+    assert not any(p.met for p in reader(None).read().permissives if p.name in ("loop", "recorder"))
