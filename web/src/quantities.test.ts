@@ -18,8 +18,10 @@ describe("quantities by unit", () => {
     expect(quantityOfUnit("1", "crest_factor").symbol).toBe("");
   });
 
-  it("keeps three digits of what is small", () => {
-    expect(plain(inUnit(1.234, "N"))).toBe("0.00123 kN");
+  it("keeps digits that say something of what is small", () => {
+    expect(plain(inUnit(48, "N"))).toBe("0.0480 kN");
+    expect(plain(inUnit(1.234, "N"))).toBe("0.0012 kN");
+    expect(inUnit(200, "1", "cycles")).toBe("200");
     expect(plain(inUnit(0, "N"))).toBe("0.00 kN");
   });
 

@@ -39,12 +39,13 @@ const BY_UNIT: Readonly<Record<string, Quantity>> = {
   cycles: plain("cycles", 0),
   count: plain("", 0),
 };
+const COUNTS = new Set(["cycles", "passes", "periods", "samples", "deadlines_missed"]);
 
 const VALVE = new Set(["valve_command", "spool_position"]);
 
 /** The quantity of a unit; a share or a valve's opening (unit 1) is read in per cent, where its name says so. */
 export function quantityOfUnit(unit: string | null | undefined, name = ""): Quantity {
-  const known = BY_UNIT[unit ?? ""];
+  const known = COUNTS.has(name) ? BY_UNIT.count : BY_UNIT[unit ?? ""];
   if (known !== undefined) return known;
   if (unit === null || unit === undefined || unit === "" || unit === "1" || unit === "-") {
     return name.includes("share") || VALVE.has(name) ? RATIO : unit ? PLAIN : quantityOf(name);
@@ -68,11 +69,11 @@ function extraDigits(quantity: Quantity, value: number | null | undefined): numb
   if (typeof value !== "number" || !Number.isFinite(value) || value === 0) return 0;
   const whole = Math.floor(Math.log10(Math.abs(value * quantity.scale)));
   if (quantity.digits === 0) return 0;
-  return Math.min(4, Math.max(0, 2 - whole - quantity.digits));
+  return Math.min(2, Math.max(0, 2 - whole - quantity.digits));
 }
 
 const WORDS: Readonly<Record<string, string>> = { rms: "RMS", rmse: "RMSE", xy: "X-Y" };
-const UNIT_ENDINGS = /_(n|m|s|hz|pa|deg|rad|db|m_s|n_s|m3_s|m_s2|share|n_m)$/;
+const UNIT_ENDINGS = /_(n|m|s|hz|pa|deg|rad|db|m_s|n_s|m3_s|m_s2|share|n_m|percent)$/;
 
 /** A name of the backend's as one reads it: `force_error_rms_n` is `Force error RMS`. */
 export function spoken(name: string): string {

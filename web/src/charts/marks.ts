@@ -54,6 +54,7 @@ export function drawMarks(plot: uPlot, marks: readonly Mark[]): void {
   const xAt = (time_s: number): number => plot.valToPos(time_s, "x", true) - bbox.left;
   ctx.save();
   ctx.font = `${size.toFixed(1)}px ${colour("--font")}`;
+  ctx.textAlign = "left";
   ctx.textBaseline = "top";
   for (const { mark, x } of legible(marks, xAt, bbox.width, 2 * size)) {
     const left = Math.round(bbox.left + x);

@@ -19,6 +19,8 @@ import type { TimeWindow } from "./zoom";
 const LEAST_DRAG_PX = 4;
 const SETTLE_MS = 200;
 const LEAST_POINTS = 200;
+/** Ticks farther apart than this are drawn as points, too. */
+const APART_PX = 7;
 
 export interface RunPlotEvents {
   /** A stretch of time was dragged over. */
@@ -47,6 +49,7 @@ export class RunPlot {
   constructor(
     private readonly host: HTMLElement,
     private readonly info: ChartInfo,
+    private readonly timeLabels: boolean,
     private readonly readout: Readout,
     private readonly events: RunPlotEvents,
   ) {
@@ -77,7 +80,7 @@ export class RunPlot {
   adorn(marks: readonly Mark[], foreseen: BandTrace | null): void {
     this.marks = marks;
     this.foreseen = foreseen;
-    this.plot.redraw(false);
+    if (this.samples) this.plot.redraw(false);
   }
 
   private draw(): void {
@@ -93,7 +96,7 @@ export class RunPlot {
   }
 
   private build(): uPlot {
-    const isSparse = (plot: uPlot): boolean => (plot.data[0]?.length ?? 0) < plot.bbox.width / 8;
+    const isSparse = (plot: uPlot): boolean => this.columnsInView() < plot.bbox.width / devicePixelRatio / APART_PX;
     const lines = this.series.flatMap(({ label, role }) => {
       const extreme = { ...line(label, colourOf(role), 1.25), points: { show: isSparse, size: 5 } };
       return [extreme, { ...extreme }];
@@ -104,7 +107,7 @@ export class RunPlot {
       legend: { show: false },
       padding: padding(),
       scales: SCALES,
-      axes: axes({ quantity: this.quantity, timeLabels: true }),
+      axes: axes({ quantity: this.quantity, timeLabels: this.timeLabels }),
       series: [{}, ...lines],
       bands: this.series.map(({ role }, i) => ({
         series: [2 * i + 2, 2 * i + 1] as [number, number],
@@ -134,6 +137,12 @@ export class RunPlot {
       move: (by) => this.events.moved((-by / plot.over.clientWidth) * (this.window.to_s - this.window.from_s)),
     });
     return plot;
+  }
+
+  private columnsInView(): number {
+    const { samples, window: shown } = this;
+    if (samples === null || samples.decimated) return Infinity;
+    return (place(samples, shown.to_s) ?? 0) - (place(samples, shown.from_s) ?? 0);
   }
 
   private select(plot: uPlot): void {

@@ -25,6 +25,14 @@ export type RunDetail = Schemas["RunDetail"];
 export type RunPage = Schemas["RunPage"];
 export type RunEvents = Schemas["RunEvents"];
 export type RunSamples = Schemas["RunSamples"];
+export type Verdict = Schemas["PredictionVerdict"];
+export type Prediction = Schemas["Prediction"];
+export type Margin = Schemas["Margin"];
+export type Computing = Schemas["Computing"];
+export type RunMeasurements = Schemas["RunMeasurements"];
+export type Criterion = Schemas["JudgedCriterion"];
+export type AcquisitionInfo = Schemas["AcquisitionSummary"];
+export type Acquisition = Schemas["AcquisitionRows"];
 
 // ---- not generated yet ----
 
@@ -32,54 +40,6 @@ export interface Permissive {
   readonly name: string;
   readonly met: boolean;
   readonly text: string;
-}
-
-export type Verdict = "clear" | "caution" | "refused";
-
-export interface PredictionReason {
-  readonly code: string;
-  readonly text: string;
-  readonly severity: "caution" | "refused";
-  readonly block: number | null;
-  readonly time_s: number | null;
-}
-
-export interface Margin {
-  readonly detector: string;
-  readonly quantity: string;
-  readonly unit: string;
-  readonly threshold: number | null;
-  readonly extreme: number | null;
-  readonly margin: number | null;
-  readonly margin_share: number | null;
-  readonly time_s: number | null;
-  readonly block: number | null;
-  readonly action: string;
-  readonly predicted: boolean;
-}
-
-export interface Prediction {
-  readonly verdict: Verdict;
-  readonly reasons: readonly PredictionReason[];
-  readonly duration_s: number;
-  readonly predicted_s: number;
-  readonly shortened: readonly { readonly path: string; readonly text: string }[];
-  readonly margins: readonly Margin[];
-  readonly valve: {
-    readonly peak: number;
-    readonly saturation_share: number;
-    readonly longest_saturation_s: number;
-  };
-  readonly peaks: Readonly<Record<string, number | null>>;
-  readonly outcome: string;
-  readonly computed_in_s: number;
-  readonly speed: number;
-}
-
-export interface Computing {
-  readonly state: "computing";
-  readonly share: number;
-  readonly seconds_left: number | null;
 }
 
 export interface ResumePreview {
@@ -91,45 +51,6 @@ export interface ResumePreview {
   readonly block: number;
   readonly cycle: number;
   readonly text: string;
-}
-
-export interface Criterion {
-  readonly measurement: string;
-  readonly block?: number | null;
-  readonly unit: string;
-  readonly value: number | null;
-  readonly at_least: number | null;
-  readonly at_most: number | null;
-  readonly outcome: string;
-}
-
-export interface Measurement {
-  readonly name: string;
-  readonly unit: string;
-  readonly value: number | null;
-}
-
-export interface RunMeasurements {
-  readonly verdict: string;
-  readonly criteria: readonly Criterion[];
-  readonly blocks: readonly {
-    readonly block: number;
-    readonly kind: string;
-    readonly measurements: readonly Measurement[];
-  }[];
-  readonly run: readonly Measurement[];
-}
-
-export interface AcquisitionInfo {
-  readonly index: number;
-  readonly kind: string;
-  readonly title: string;
-  readonly rows: number;
-  readonly columns: readonly string[];
-}
-
-export interface Acquisition {
-  readonly columns: Readonly<Record<string, readonly (number | null)[]>>;
 }
 
 export interface PredictedBands {

@@ -17,7 +17,8 @@ export interface MarginRow {
   /** `at 2.31 s, block 3` */
   readonly when: string;
   readonly action: string;
-  readonly predicted: boolean;
+  /** Predicted, and armed at all. */
+  readonly known: boolean;
 }
 
 /** Below this share of its limit a margin is small. The backend judges a caution; this only colours. */
@@ -27,22 +28,23 @@ const used = (margin: Margin): number | null => (margin.margin_share === null ? 
 
 /** The smallest margin on top, those that cannot be predicted at the end. */
 export function marginRows(margins: readonly Margin[]): readonly MarginRow[] {
-  const key = (margin: Margin): number => (margin.predicted ? (margin.margin_share ?? 1e6) : 1e9);
+  const key = (margin: Margin): number => (margin.predicted ? (margin.margin_share ?? 1e8) : 1e9);
   return [...margins].sort((a, b) => key(a) - key(b)).map(rowOf);
 }
 
 function rowOf(margin: Margin): MarginRow {
   const share = used(margin);
-  const { extreme, threshold, unit, quantity, margin_share, predicted } = margin;
+  const { extreme, threshold, unit, quantity, margin_share, predicted, note } = margin;
+  const known = predicted && extreme !== null;
   return {
     name: spoken(margin.detector),
-    used: predicted && share !== null ? Math.min(1, Math.max(0, share)) : null,
-    nearness: !predicted || margin_share === null ? "within" : nearnessOf(margin_share),
-    extreme: predicted ? `${inUnit(extreme, unit, quantity)} of ${inUnit(threshold, unit, quantity)}` : "not predicted",
-    share: predicted && margin_share !== null ? perCent(margin_share) : NOTHING,
-    when: predicted ? whenOf(margin) : "",
+    used: known && share !== null ? Math.min(1, Math.max(0, share)) : null,
+    nearness: !known || margin_share === null ? "within" : nearnessOf(margin_share),
+    extreme: known ? `${inUnit(extreme, unit, quantity)} of ${inUnit(threshold, unit, quantity)}` : (note ?? ""),
+    share: known && margin_share !== null ? perCent(margin_share) : NOTHING,
+    when: known ? whenOf(margin) : "",
     action: margin.action,
-    predicted,
+    known,
   };
 }
 

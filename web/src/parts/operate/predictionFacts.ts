@@ -11,14 +11,14 @@ export interface Fact {
 
 export function predictionFacts({ duration_s, peaks, valve }: Prediction): readonly Fact[] {
   return [
-    { label: "Expected duration", text: duration(duration_s) },
+    { label: "Duration", text: duration(duration_s) },
     { label: "Peak force", text: withUnit(FORCE, peaks.force_n) },
-    { label: "Peak displacement", text: withUnit(LENGTH, peaks.displacement_m) },
-    { label: "Peak velocity", text: withUnit(SPEED, peaks.velocity_m_s) },
-    { label: "Largest force error", text: withUnit(FORCE, peaks.force_error_n) },
+    { label: "Displacement", text: withUnit(LENGTH, peaks.displacement_m) },
+    { label: "Velocity", text: withUnit(SPEED, peaks.velocity_m_s) },
+    { label: "Force error", text: withUnit(FORCE, peaks.force_error_n) },
     { label: "Supply flow", text: inUnit(peaks.supply_flow_m3_s, "m³/s") },
-    { label: "Pressure droop", text: withUnit(PRESSURE, peaks.pressure_droop_pa) },
-    { label: "Valve, at most", text: withUnit(RATIO, valve.peak) },
+    { label: "Supply droop", text: withUnit(PRESSURE, peaks.pressure_droop_pa) },
+    { label: "Valve", text: withUnit(RATIO, valve.peak) },
     { label: "Valve saturated", text: saturation(valve) },
   ];
 }

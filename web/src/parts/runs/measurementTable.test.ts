@@ -6,7 +6,7 @@ const RESULTS: RunMeasurements = {
   verdict: "fail",
   criteria: [
     { measurement: "peak_force_n", block: 1, unit: "N", value: 3e4, at_least: null, at_most: 2e4, outcome: "fail" },
-    { measurement: "peak_force_n", unit: "N", value: 3e4, at_least: null, at_most: 4e4, outcome: "pass" },
+    { measurement: "peak_force_n", block: null, unit: "N", value: 3e4, at_least: null, at_most: 4e4, outcome: "pass" },
   ],
   run: [{ name: "peak_force_n", unit: "N", value: 3e4 }],
   blocks: [
@@ -36,7 +36,7 @@ describe("measurementTable", () => {
     ]);
     expect(rows.map(({ cells }) => cells.map(({ text }) => text))).toEqual([
       ["30.00", ""],
-      ["0.00500", ""],
+      ["0.0050", ""],
       ["30.00", "—"],
     ]);
   });
