@@ -12,6 +12,7 @@ from app.histories.store import Store
 from app.prediction.service import Predictions
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
+from app.runs.predicted import RunPredictions
 from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
@@ -72,6 +73,10 @@ def _predictions(this: ThisConsole) -> Predictions:
     return this.predictions
 
 
+def _run_predictions(this: ThisConsole) -> RunPredictions:
+    return this.run_predictions
+
+
 def _starter(this: ThisConsole) -> Starter:
     return this.starter
 
@@ -87,4 +92,5 @@ ResultsService = Annotated[Results, Depends(_results)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
 StorageService = Annotated[Storage, Depends(_storage)]
 PredictionsService = Annotated[Predictions, Depends(_predictions)]
+RunPredictionsService = Annotated[RunPredictions, Depends(_run_predictions)]
 StarterService = Annotated[Starter, Depends(_starter)]

@@ -25,6 +25,7 @@ from app.prediction.router import router as predictions_router
 from app.presets import Presets, load_presets
 from app.problems import install_handlers
 from app.rigs.router import router as rig_router
+from app.runs.predicted_router import router as predicted_router
 from app.runs.results_router import router as results_router
 from app.runs.router import router as runs_router
 from app.runs.samples_router import router as samples_router
@@ -79,6 +80,7 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         runs_router,
         samples_router,
         results_router,
+        predicted_router,
         storage_router,
         live_router,
     ):

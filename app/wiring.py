@@ -27,6 +27,7 @@ from app.runs.entering import Frozen
 from app.runs.ledger import Ledger
 from app.runs.measuring import measure
 from app.runs.plans import Plans
+from app.runs.predicted import RunPredictions
 from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
@@ -75,6 +76,7 @@ class Console:
             self.recorder.stopped_because,
             lambda: self.link.ask(Opcode.STOP),
         )
+        self.run_predictions = RunPredictions(self.database, settings.runs_dir)
         self.run_windows = RunWindows(self.database, settings.runs_dir)
         self.predictions = Predictions(presets.controller, presets.interlocks, presets.rig)
         needs = Needs(

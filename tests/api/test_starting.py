@@ -137,6 +137,11 @@ def test_a_caution_starts_with_a_reason_which_the_run_keeps(
     assert series.column_names == ["program_tick", "force_n", "displacement_m"]
     peak_n = abs(series["force_n"].to_numpy()).max()
     assert peak_n == pytest.approx(predicted["peaks"]["force_n"], rel=1e-6)
+    kept = ready.http.get(f"/runs/{run['id']}/prediction").json()
+    assert kept == predicted
+    bands = ready.http.get(f"/runs/{run['id']}/predicted", params={"points": 50}).json()
+    assert max(bands["force_max_n"]) == pytest.approx(series["force_n"].to_numpy().max())
+    assert len(bands["time_s"]) <= 50
     recorded = pq.read_table(ready.data / "runs" / str(run["id"]) / "run.parquet")
     assert abs(recorded["force_n"].to_numpy()).max() == pytest.approx(peak_n, rel=0.01)
 
