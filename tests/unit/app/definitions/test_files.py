@@ -5,9 +5,12 @@ from pathlib import Path
 import pytest
 
 from app.definitions.definition import Definition
+from app.definitions.outline import outline
 from app.definitions.reading import load_definition, parse_definition
 from app.documents.refusal import Problem
+from app.documents.writing import to_yaml
 from app.errors import Code, Refusal
+from app.histories.store import Beside
 
 GOOD = """\
 schema: 1
@@ -96,3 +99,55 @@ def test_what_is_no_text_file_is_said(tmp_path: Path) -> None:
     huge.write_bytes(b"#" * 500_001)
     (too_large,) = _problems(load_definition(huge))
     assert "larger than the limit of 500,000 bytes" in too_large.expected
+
+
+def _with_history(folder: Path, csv: str, block: str) -> Path:
+    (folder / "loads").mkdir()
+    (folder / "loads" / "gust.csv").write_text(csv)
+    path = folder / "test.yaml"
+    path.write_text(f"schema: 1\nname: Gust\nblocks:\n  - {{kind: time_history, {block}}}\n")
+    return path
+
+
+def test_a_time_history_is_found_beside_the_test(tmp_path: Path) -> None:
+    csv = "time_s;Kraft [kN]\n0;0\n0,5;1,5\n1;0\n"
+    path = _with_history(tmp_path, csv, "file: loads/gust.csv, gain: 2")
+    definition = load_definition(path)
+    assert isinstance(definition, Definition), definition.detail
+    found = outline(definition)
+    assert found.peak_force_n == 3000
+    assert found.duration_s == pytest.approx(0.1 + 1)
+    assert load_definition(path) == definition
+    assert parse_definition(to_yaml(definition), histories=Beside(tmp_path)) == definition
+    csv_path = tmp_path / "loads" / "gust.csv"
+    csv_path.write_text(csv.replace("1,5", "1,6"))
+    assert load_definition(path) != definition
+
+
+@pytest.mark.parametrize(
+    ("csv", "block", "key", "says"),
+    [
+        ("t,f\n0,0\n1,x\n", "file: loads/gust.csv", "file", "gust.csv, line 3: 'x' is no number"),
+        ("t,f\n0,0\n1,9\n", "file: gust.csv", "file", "no such file"),
+        ("t,f\n0,0\n1,9\n", "file: loads", "file", "no such file"),
+        ("t,f [mm]\n0,0\n1,9\n", "file: loads/gust.csv", "file", "is in m, must be in N"),
+        ("t,f\n0,0\n1,9e4\n", "file: loads/gust.csv", "file", "reaches 90,000 N"),
+        ("t,f\n0,0\n.01,3e4\n.02,0\n", "file: loads/gust.csv", "file", "at 0 s, must be at most"),
+        ("t,f\n0,0\n.1,1\n", "file: loads/gust.csv, rate_hz: 4100", "rate_hz", "at most 4,000 Hz"),
+        ("f\n0\n1\n", "file: loads/gust.csv", "file", "say its rate_hz"),
+    ],
+)
+def test_what_is_wrong_with_a_time_history_is_said_at_its_block(
+    tmp_path: Path, csv: str, block: str, key: str, says: str
+) -> None:
+    (problem,) = _problems(load_definition(_with_history(tmp_path, csv, block)))
+    assert (problem.path, problem.line) == (f"blocks[0].{key}", 4)
+    assert says in problem.expected
+
+
+def test_a_rate_resamples_a_file_that_has_times(tmp_path: Path) -> None:
+    csv = "t,f\n0,0\n1,10\n2,40\n"
+    path = _with_history(tmp_path, csv, "file: loads/gust.csv, rate_hz: 8")
+    definition = load_definition(path)
+    assert isinstance(definition, Definition), definition.detail
+    assert outline(definition).duration_s == pytest.approx(0.1 + 2)

@@ -137,7 +137,7 @@ def test_times_that_were_rounded_are_even(tmp_path: Path) -> None:
 
 def test_uneven_samples_are_resampled_along_the_monotone_curve(tmp_path: Path) -> None:
     random = np.random.default_rng(3)
-    steps_s = np.where(random.random(400_000) < 0.5, 0.01, 0.01 * random.uniform(0.5, 1.5, 400_000))
+    steps_s = np.where(random.random(150_000) < 0.5, 0.01, 0.01 * random.uniform(0.5, 1.5, 150_000))
     times = np.cumsum(steps_s)
     values = np.round(1000 * np.sin(times), 3)
     rows = np.column_stack([times, values])
