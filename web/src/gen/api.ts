@@ -324,6 +324,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run_id}/predicted": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Predicted
+         * @description Predicted force and displacement on the run's own time: holds put them off as they did the test.
+         */
+        get: operations["getRunPredicted"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/prediction": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Prediction
+         * @description The prediction that the run was started with.
+         */
+        get: operations["getRunPrediction"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run_id}/samples": {
         parameters: {
             query?: never;
@@ -1584,6 +1624,22 @@ export interface components {
             name: string;
             /** Text */
             text: string;
+        };
+        /**
+         * PredictedBands
+         * @description Least and greatest predicted values; `time_s` counts from the run's first tick.
+         */
+        PredictedBands: {
+            /** Displacement Max M */
+            displacement_max_m: number[];
+            /** Displacement Min M */
+            displacement_min_m: number[];
+            /** Force Max N */
+            force_max_n: number[];
+            /** Force Min N */
+            force_min_n: number[];
+            /** Time S */
+            time_s: number[];
         };
         /**
          * Prediction
@@ -3097,6 +3153,72 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunMeasurements"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunPredicted: {
+        parameters: {
+            query?: {
+                from_s?: number;
+                to_s?: number | null;
+                points?: number;
+            };
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PredictedBands"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunPrediction: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Prediction"];
                 };
             };
             /** @description A problem document (RFC 9457) */
