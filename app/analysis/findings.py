@@ -26,6 +26,8 @@ class CycleStatistics:
 
     def take(self, rows: npt.NDArray[Any]) -> None:
         """Count (n,) CYCLE."""
+        if len(rows) == 0:
+            return
         whole = rows[rows["whole"]]
         peaks_n, valleys_n = whole["peak_n"], whole["valley_n"]
         self.count += len(rows)
