@@ -75,12 +75,17 @@ def doctor(json: Json = False) -> None:
 
 @cli.command()
 def bench(
-    name: Annotated[str, typer.Argument(help="Its name, or all.")] = "all", json: Json = False
+    name: Annotated[str, typer.Argument(help="Its name, or all.")] = "all",
+    minutes: Annotated[
+        float | None, typer.Option(min=0.1, max=1440, help="Of real time, for recording.")
+    ] = None,
+    hour: Annotated[bool, typer.Option("--hour", help="As --minutes 60.")] = False,
+    json: Json = False,
 ) -> None:
     """Run the benchmarks."""
     from app.commands.bench import run
 
-    raise typer.Exit(run(name, json))
+    raise typer.Exit(run(name, json, 60.0 if hour else minutes))
 
 
 @cli.command()

@@ -51,3 +51,21 @@ def test_an_unknown_benchmark_is_refused_with_those_there_are(
 
 def test_what_shows_the_figures_is_no_benchmark() -> None:
     assert "report" not in bench.benchmarks()
+
+
+@pytest.mark.usefixtures("_known")
+def test_only_what_measures_for_a_time_is_told_for_how_long(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    told: list[float] = []
+
+    def recording(as_json: bool, minutes: float = 2.0) -> int:
+        told.append(minutes)
+        return 0
+
+    monkeypatch.setattr(bench, "benchmarks", lambda: {"recording": recording, "loop": len})
+    assert bench.run("recording", as_json=False, minutes=60.0) == 0
+    assert bench.run("recording", as_json=False) == 0
+    assert told == [60.0, 2.0]
+    assert bench.run("loop", as_json=False, minutes=60.0) == 2
+    assert "leave --minutes out" in capsys.readouterr().err
