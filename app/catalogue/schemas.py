@@ -202,13 +202,17 @@ class SpectrumOut(BaseModel):
 
 
 class TestChecked(BaseModel):
-    """A test as data and as text, or what is wrong with it."""
+    """A test as data and as text, both as they were written, and what is wrong with it.
+
+    `whole` is what would be saved: every default filled in. It is null where something is wrong.
+    """
 
     __test__ = False
 
     valid: bool
     problems: list[ProblemOut]
     definition: dict[str, Any] | None = None
+    whole: dict[str, Any] | None = None
     yaml: str | None = None
     outline: Outline | None = None
 

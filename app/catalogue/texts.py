@@ -40,6 +40,7 @@ def check(reader: Reader, text: TestText) -> TestChecked:
         problems=[],
         definition=(_data_in(written.yaml) or written.data) if as_text else text.definition,
         yaml=written.yaml if as_text else data_to_yaml(text.definition),
+        whole=written.data,
         outline=written.outline,
     )
 

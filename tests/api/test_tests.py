@@ -162,6 +162,7 @@ def test_a_check_turns_one_form_into_the_other(console: ConsoleProcess, form: st
     checked = console.http.post("/tests/check", json={form: whole[form]}).json()
     assert checked["valid"]
     assert checked["definition"] == whole["definition"]
+    assert checked["whole"] == whole["whole"] != whole["definition"]
     assert checked["outline"]["duration_s"] == pytest.approx(2.0)
     assert checked["yaml"].startswith("# For" if form == "yaml" else "schema: 1")
 

@@ -2311,7 +2311,9 @@ export interface components {
         };
         /**
          * TestChecked
-         * @description A test as data and as text, or what is wrong with it.
+         * @description A test as data and as text, both as they were written, and what is wrong with it.
+         *
+         *     `whole` is what would be saved: every default filled in. It is null where something is wrong.
          */
         TestChecked: {
             /** Definition */
@@ -2323,6 +2325,10 @@ export interface components {
             problems: components["schemas"]["ProblemOut"][];
             /** Valid */
             valid: boolean;
+            /** Whole */
+            whole?: {
+                [key: string]: unknown;
+            } | null;
             /** Yaml */
             yaml?: string | null;
         };

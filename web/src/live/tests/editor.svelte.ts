@@ -26,6 +26,8 @@ interface Written {
 export interface Sound {
   readonly yaml: string;
   readonly outline: Outline;
+  /** The definition with every default filled in, as it would be saved. */
+  readonly whole: Definition;
 }
 
 export class Editor {
@@ -39,6 +41,8 @@ export class Editor {
   conflict = $state.raw<TestDetail | null>(null);
   /** Since when a draft that was found waits to be saved. */
   foundDraft = $state<string | null>(null);
+  /** It was saved as another test: there is nothing left here to be lost. */
+  private elsewhere = $state(false);
   private history = $state.raw<History<Written>>(begin(blank()));
   private accepted = $state("");
   private readonly checks = new Latest();
@@ -49,7 +53,8 @@ export class Editor {
   /** The form may be used: it would lose no comment, or a person has said that it may. */
   readonly formOpen = $derived(this.comments.length === 0 || this.accepted === this.comments.join("\n"));
   readonly dirty = $derived(
-    this.base === null ? this.history.past.length > 0 || this.foundDraft !== null : !this.isSaved(this.now),
+    !this.elsewhere &&
+      (this.base === null ? this.history.past.length > 0 || this.foundDraft !== null : !this.isSaved(this.now)),
   );
   readonly canUndo = $derived(this.history.past.length > 0);
   readonly canRedo = $derived(this.history.future.length > 0);
@@ -188,14 +193,14 @@ export class Editor {
     }
   }
 
-  private take({ problems, definition, yaml, outline }: Checked): void {
+  private take({ problems, definition, yaml, outline, whole }: Checked): void {
     const { now } = this;
     this.failure = "";
     this.faults = problems;
     const other = now.from === "form" ? { yaml: now.agreed ? now.yaml : yaml } : { definition };
     const agreed = Object.values(other).every((side) => side !== null && side !== undefined);
     if (agreed) this.history = amend(this.history, { ...now, ...(other as Partial<Written>), agreed });
-    this.sound = agreed && outline && problems.length === 0 ? { yaml: this.now.yaml, outline } : null;
+    this.sound = agreed && outline && whole ? { yaml: this.now.yaml, outline, whole } : null;
     this.keep();
   }
 
@@ -207,8 +212,8 @@ export class Editor {
       this.conflict = this.foundDraft = null;
       this.failure = "";
       if (detail.id === this.id) this.base = detail;
-      if (detail.id === this.id) this.keep();
-      else dropDraft(localStorage, this.id);
+      else this.elsewhere = true;
+      this.keep();
       return detail;
     } catch (error) {
       await this.refused(error);

@@ -15,7 +15,10 @@ export type TestText = { readonly definition: Definition } | { readonly yaml: st
 export type Fault = Schemas["ProblemOut"];
 export type Outline = Schemas["Outline"];
 export type TimedOutline = Pick<Schemas["BlockOutline"], "index" | "start_s" | "duration_s">;
-export type Checked = Omit<Schemas["TestChecked"], "definition"> & { readonly definition?: Definition | null };
+export type Checked = Omit<Schemas["TestChecked"], "definition" | "whole"> & {
+  readonly definition?: Definition | null;
+  readonly whole?: Definition | null;
+};
 export type Preview = Schemas["PreviewOut"];
 export type CatalogueEntry = Schemas["TestSummary"];
 export type TestDetail = Defined<Schemas["TestDetail"]>;
