@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import chain, islice
-from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,6 @@ from rtcore.program.stream import Course, Program
 Records = npt.NDArray[Any]
 
 _NAMES = [name for name in SEGMENT.names or () if name not in ("block", "jump")]
-_values = attrgetter(*_NAMES)
 _TOGETHER = 512  # segments given at once where they are given bit by bit
 
 
@@ -65,8 +63,9 @@ def _block(node: Node) -> int:
 
 def _records(pieces: Sequence[Piece]) -> Records:
     records = np.zeros(len(pieces), SEGMENT)
-    records[_NAMES] = np.array([_values(p) for p in pieces], records[_NAMES].dtype)
-    records["block"] = [_block(p) for p in pieces]
+    for name in _NAMES:
+        records[name] = [getattr(piece, name) for piece in pieces]
+    records["block"] = [_block(piece) for piece in pieces]
     return records
 
 
@@ -79,25 +78,26 @@ def _end(block: int) -> Records:
 def _table(nodes: Sequence[Node]) -> Records:
     """Every node with its repeats, END last."""
     table = np.zeros(segments_in(nodes) + 1, SEGMENT)
-    place = _write(table, 0, nodes)
-    table[place] = _end(_block(nodes[-1]) if nodes else 0)[0]
+    table[-1:] = _end(_block(nodes[-1]) if nodes else 0)
+    placed = list(_laid(table, 0, nodes))
+    table[[place for place, _ in placed]] = _records([piece for _, piece in placed])
     return table
 
 
-def _write(table: Records, place: int, nodes: Iterable[Node]) -> int:
-    """Write nodes from a place on; returns the place after them."""
+def _laid(table: Records, place: int, nodes: Iterable[Node]) -> Iterator[tuple[int, Piece]]:
+    """Write the repeats of nodes from a place on; gives each piece with its own place."""
     for node in nodes:
-        first = place
         if isinstance(node, Piece):
-            table[place] = _records([node])[0]
+            yield place, node
         else:
-            place = _write(table, place, node.body)
+            first = place
+            yield from _laid(table, first, node.body)
+            place += segments_in(node.body)
             table[place]["kind"] = Segment.REPEAT
             table[place]["jump"] = first
             table[place]["times"] = node.times
             table[place]["block"] = _block(node)
         place += 1
-    return place
 
 
 def _unrolled_segments(nodes: Sequence[Node]) -> Iterator[Records]:

@@ -6,14 +6,7 @@ from typing import Any, Literal
 
 from app.definitions import blocks as force
 from app.definitions import motions as motion
-from app.definitions.limits import RIG
-from app.definitions.multisine import period_of
-from app.definitions.pieces import (
-    Loop,
-    Node,
-    Piece,
-    Sine,
-    Track,
+from app.definitions.building import (
     course,
     harmonic,
     hold,
@@ -24,6 +17,9 @@ from app.definitions.pieces import (
     stepped,
     sweep,
 )
+from app.definitions.limits import RIG
+from app.definitions.multisine import period_of
+from app.definitions.pieces import Loop, Node, Piece, Sine, Track
 from app.definitions.responses import FrequencyResponse
 from app.documents.tree import Path
 from rtcore.program.segments import Branch

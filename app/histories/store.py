@@ -1,5 +1,6 @@
 """The store of time histories: a folder each, which appears whole or not at all and never changes."""
 
+import errno
 import hashlib
 import re
 import tempfile
@@ -91,6 +92,17 @@ def import_history(
     if not _NAME.fullmatch(name):
         message = "must be letters, digits, dots, dashes and blanks, and end in .csv, .tsv or .txt"
         return refuse(Code.INVALID_HISTORY, name[:100], [Problem("name", name[:100], message)])
+    try:
+        return _imported(stream, name, folder, column, rate_hz)
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+            raise
+        return Refusal(Code.NO_SPACE, f"There is no room on the disk for {name}")
+
+
+def _imported(
+    stream: Iterable[bytes], name: str, folder: Path, column: str | None, rate_hz: float | None
+) -> HistoryInfo | Refusal:
     folder.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=".incoming-", dir=folder) as work:
         place = Path(work) / name

@@ -1,5 +1,7 @@
 """CSV files as measuring systems write them; what is wrong in one is said with its line."""
 
+import errno
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -183,3 +185,24 @@ def test_a_history_beside_a_test_is_read_where_it_lies(tmp_path: Path) -> None:
     assert isinstance(history, History)
     assert history.values.tolist() == [1000, 2000, 3000]
     assert [path.name for path in tmp_path.iterdir() if path.suffix] == ["good.csv"]
+
+
+def test_a_full_disk_keeps_nothing_and_says_so(tmp_path: Path) -> None:
+    def parts() -> Iterator[bytes]:
+        yield b"f\n1\n"
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    refusal = import_history(parts(), "a.csv", tmp_path, rate_hz=1.0)
+    assert isinstance(refusal, Refusal)
+    assert refusal.code is Code.NO_SPACE
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_upload_that_breaks_off_keeps_nothing(tmp_path: Path) -> None:
+    def parts() -> Iterator[bytes]:
+        yield b"f\n1\n"
+        raise ConnectionError
+
+    with pytest.raises(ConnectionError):
+        import_history(parts(), "a.csv", tmp_path, rate_hz=1.0)
+    assert list(tmp_path.iterdir()) == []
