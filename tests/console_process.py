@@ -55,6 +55,7 @@ class ConsoleProcess:
         }
         if database_url is not None:
             self._environment["FORCERIG_DATABASE_URL"] = database_url
+        self.database_url = database_url or f"sqlite:///{self.data / 'forcerig.sqlite'}"
         self._process: subprocess.Popen[bytes] | None = None
         self.url = ""
 

@@ -78,7 +78,7 @@ def _sqlite(sought: Sought, conditions: list[ColumnElement[bool]]) -> ColumnElem
     words = " AND ".join([*sought.facets, *(f"{word}*" for word in sought.words)])
     if conditions:
         # The + keeps SQLite from looking up a million runs in the index of words one by one.
-        conditions.append(Run.id == literal_column("+runs_words.rowid"))
+        conditions.append(Run.id == _INDEX.c.rowid.op("+")(0))
     conditions.append(literal_column("runs_words").op("MATCH")(words))
     return _INDEX.c.rowid
 

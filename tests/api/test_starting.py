@@ -1,13 +1,14 @@
 """A start is held against its prediction: clear starts, a caution needs a reason, refused never does."""
 
-import sqlite3
 from collections.abc import Iterator
 from contextlib import closing
 from typing import Any
 
 import pyarrow.parquet as pq
 import pytest
+from sqlalchemy import text
 
+from app.db import Database
 from tests.console_process import ConsoleProcess, wait_for
 
 pytestmark = [pytest.mark.process, pytest.mark.slow]
@@ -33,9 +34,10 @@ def tests(console: ConsoleProcess) -> dict[str, str]:
 
 
 def _rows(console: ConsoleProcess) -> dict[str, int]:
-    with closing(sqlite3.connect(console.data / "forcerig.sqlite")) as database:
+    database = Database(console.database_url)
+    with closing(database), database.reading() as session:
         return {
-            table: database.execute(f"SELECT count(*) FROM {table}").fetchone()[0]
+            table: session.execute(text(f"SELECT count(*) FROM {table}")).scalar_one()
             for table in ("runs", "documents", "run_tags")
         }
 
