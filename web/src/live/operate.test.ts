@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Freshness } from "./freshness";
-import { COMMANDS, guidance, nextCommand, refusal } from "./operate";
+import { COMMANDS, guidance, missing, nextCommand, refusal } from "./operate";
 import { OPEN, type StartGate } from "./predicting";
 import type { Command, Mode, RigStatus, TestSummary } from "./types";
 import { modeWords } from "./words";
@@ -89,6 +89,21 @@ describe("guidance", () => {
       "Supply pressure still high",
     );
     expect(guidance(status("ready"), LOST, with_(STEP))).toMatch(/Stop is always sent/);
+  });
+});
+
+describe("missing", () => {
+  const permissives = [
+    { name: "pressure", met: false, text: "Press Pressurise" },
+    { name: "storage", met: true, text: "There is room" },
+  ];
+  const at = (run: unknown): RigStatus => ({ mode: "off", permissives, run }) as unknown as RigStatus;
+
+  it("is what a start still needs, while data arrive and nothing runs", () => {
+    expect(missing(at(null), FRESH).map(({ name }) => name)).toEqual(["pressure"]);
+    expect(missing(at({ id: 1 }), FRESH)).toEqual([]);
+    expect(missing(at(null), LOST)).toEqual([]);
+    expect(missing(null, FRESH)).toEqual([]);
   });
 });
 

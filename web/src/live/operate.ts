@@ -95,5 +95,5 @@ const WAITING: Partial<Record<Mode, string>> = {
 /** What a start still needs, in the rig's own words; nothing while no data arrive. */
 export function missing(status: RigStatus | null, fresh: Freshness): readonly Permissive[] {
   if (status === null || fresh.trouble !== null || status.run !== null) return [];
-  return ((status as { permissives?: readonly Permissive[] }).permissives ?? []).filter(({ met }) => !met);
+  return status.permissives.filter(({ met }) => !met);
 }

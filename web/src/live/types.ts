@@ -33,30 +33,6 @@ export type RunMeasurements = Schemas["RunMeasurements"];
 export type Criterion = Schemas["JudgedCriterion"];
 export type AcquisitionInfo = Schemas["AcquisitionSummary"];
 export type Acquisition = Schemas["AcquisitionRows"];
-
-// ---- not generated yet ----
-
-export interface Permissive {
-  readonly name: string;
-  readonly met: boolean;
-  readonly text: string;
-}
-
-export interface ResumePreview {
-  readonly time_s: readonly number[];
-  readonly force_min_n: readonly number[];
-  readonly force_max_n: readonly number[];
-  readonly displacement_min_m: readonly number[];
-  readonly displacement_max_m: readonly number[];
-  readonly block: number;
-  readonly cycle: number;
-  readonly text: string;
-}
-
-export interface PredictedBands {
-  readonly time_s: readonly number[];
-  readonly force_min_n: readonly (number | null)[];
-  readonly force_max_n: readonly (number | null)[];
-  readonly displacement_min_m: readonly (number | null)[];
-  readonly displacement_max_m: readonly (number | null)[];
-}
+export type Permissive = Schemas["Permissive"];
+export type ResumePreview = Schemas["ResumePreview"];
+export type PredictedBands = Schemas["PredictedBands"];
