@@ -1,11 +1,17 @@
 """`forcerig check`: is this a test, and what does it come to?"""
 
+from collections.abc import Sequence
+
+from rich.console import Console
 from rich.table import Table
 
 from app.commands.output import Exit, print_json, print_refusal, text_console
 from app.commands.which_test import find_definition
+from app.definitions.blocks import Block
 from app.definitions.definition import Definition
+from app.definitions.motions import Motion
 from app.definitions.outline import Outline, outline
+from app.definitions.saying import in_words
 from app.documents.units import say
 from app.errors import Refusal
 
@@ -27,8 +33,10 @@ def _print(definition: Definition, found: Outline) -> None:
     console = text_console()
     console.print(definition.name, style="bold", markup=False)
     console.print(_blocks(found))
+    _print_words(console, definition.blocks)
     if found.motion:
         console.print(_motion(found))
+        _print_words(console, definition.motion)
     console.print(
         f"{say(found.duration_s, 's')}, {found.cycles:,} cycles, "
         f"peak {say(found.peak_force_n, 'N')}, {say(found.peak_displacement_m, 'm')}"
@@ -36,6 +44,14 @@ def _print(definition: Definition, found: Outline) -> None:
     if found.motion_duration_s > found.duration_s:
         left_s = found.motion_duration_s - found.duration_s
         console.print(f"The motion would go on for {say(left_s, 's')} after the last block.")
+
+
+def _print_words(console: Console, items: Sequence[Block | Motion]) -> None:
+    """What the table does not show of each block."""
+    for i, item in enumerate(items):
+        words = in_words(item)
+        if words:
+            console.print(f"{i} {item.kind}: {words}", markup=False, highlight=False)
 
 
 def _table(name: str, unit: str) -> Table:

@@ -19,6 +19,7 @@ from app.definitions.quantities import (
     PhaseDeg,
     RateNS,
     RiseS,
+    SweptHz,
     TaperCycles,
     Times,
 )
@@ -88,8 +89,8 @@ class Sweep(Document):
     kind: Literal["sweep"] = "sweep"
     mean_n: ForceN = 0.0
     amplitude_n: AmplitudeN
-    from_hz: FrequencyHz
-    to_hz: FrequencyHz
+    from_hz: SweptHz
+    to_hz: SweptHz
     rate_octaves_s: OctavesS | None = None
     duration_s: DurationS | None = None
     law: Literal["log", "linear"] = "log"

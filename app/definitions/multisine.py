@@ -17,6 +17,7 @@ from app.definitions.limits import RIG
 from app.histories.history import History, from_values
 
 _CLIPPED = np.linspace(0.3, 0.95, 200)  # of the peak, round by round
+_ENDLESS = 1e12
 _LARGEST = 1 << 15  # samples of a period whose phases are worth the rounds
 
 
@@ -46,7 +47,8 @@ def grid_of_band(frequencies_hz: Sequence[float]) -> Grid:
     """The shortest period in which frequencies at equal ratios stay apart; they move onto its lines."""
     low, *_ = ordered = sorted(frequencies_hz)
     apart_hz = ordered[1] - low
-    period_s = math.ceil(low / apart_hz - 1e-9) / low
+    turns = min(low / apart_hz, _ENDLESS) if apart_hz > 0 else _ENDLESS  # of the lowest
+    period_s = math.ceil(turns - 1e-9) / low
     period_ticks = math.ceil(period_s * RIG.loop_rate_hz - 1e-9)
     lines = {math.floor(f * period_ticks / RIG.loop_rate_hz + 0.5) for f in ordered}
     return Grid(period_ticks, tuple(sorted(lines)))

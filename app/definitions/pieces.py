@@ -118,4 +118,5 @@ def loops_within(nodes: Iterable[Node]) -> int:
 
 def whole_ticks(duration_s: float) -> int:
     """The nearest whole number of ticks, at least 1."""
-    return max(1, math.floor(duration_s / RIG.period_s + 0.5))
+    endless_s = 2 * RIG.duration_limit_s  # longer makes no difference: it is refused
+    return max(1, math.floor(min(duration_s, endless_s) / RIG.period_s + 0.5))

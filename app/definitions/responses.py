@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from app.definitions.checks import within
 from app.definitions.limits import RIG
 from app.definitions.multisine import Grid, grid_of_band, grid_of_list
-from app.definitions.quantities import Cycles, ForceN, FrequencyHz, SettleCycles, SwingN, Whole
+from app.definitions.quantities import Cycles, ForceN, SettleCycles, SweptHz, SwingN, Whole
 from app.documents.fields import Document, wrong
 from app.documents.units import say
 
@@ -18,8 +18,8 @@ Points = Annotated[Whole, Field(ge=2, le=RIG.block_limit)]
 class Band(Document):
     """Frequencies at equal ratios from one to another, either way."""
 
-    from_hz: FrequencyHz
-    to_hz: FrequencyHz
+    from_hz: SweptHz
+    to_hz: SweptHz
     points: Points
 
     @model_validator(mode="after")
@@ -33,7 +33,7 @@ def _written_as(value: Any) -> str:
     return "band" if isinstance(value, dict | Band) else "list"
 
 
-_List = Annotated[tuple[FrequencyHz, ...], Field(min_length=1, max_length=RIG.block_limit)]
+_List = Annotated[tuple[SweptHz, ...], Field(min_length=1, max_length=RIG.block_limit)]
 Frequencies = Annotated[
     Annotated[_List, Tag("list")] | Annotated[Band, Tag("band")], Discriminator(_written_as)
 ]
