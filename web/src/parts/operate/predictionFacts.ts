@@ -19,7 +19,7 @@ export function predictionFacts({ duration_s, peaks, valve }: Prediction): reado
     { label: "Supply flow", text: inUnit(peaks.supply_flow_m3_s, "m³/s") },
     { label: "Supply droop", text: withUnit(PRESSURE, peaks.pressure_droop_pa) },
     { label: "Valve", text: withUnit(RATIO, valve.peak) },
-    { label: "Valve saturated", text: saturation(valve) },
+    { label: "Saturated", text: saturation(valve) },
   ];
 }
 

@@ -1,0 +1,31 @@
+"""What an operator does again and again, for the tests that look at the console."""
+
+import re
+
+from playwright.sync_api import Page, expect
+
+from tests.console_process import ConsoleProcess
+
+HARMONIC = "harmonic-2-kn-50-hz"
+
+
+def is_at(page: Page, mode: str) -> None:
+    """The mode on the screen matches."""
+    expect(page.get_by_test_id("mode")).to_have_text(re.compile(mode, re.IGNORECASE))
+
+
+def choose(page: Page, test_id: str) -> None:
+    """Choose a test, and wait for its prediction: Start waits for it, too."""
+    page.get_by_test_id(f"test-{test_id}").click()
+    expect(page.get_by_test_id("prediction-verdict")).to_be_visible()
+
+
+def make_ready(page: Page, console: ConsoleProcess) -> None:
+    """Reset and pressurise by the buttons, from a latched rig."""
+    assert console.command("shutdown").is_success
+    page.goto(console.url)
+    is_at(page, "tripped")
+    page.get_by_test_id("cmd-reset").click()
+    is_at(page, "off")
+    page.get_by_test_id("cmd-pressurise").click()
+    is_at(page, "ready")
