@@ -68,9 +68,9 @@ class CycleReader:
         if not at["begun"]:
             return np.zeros(0, CYCLE)
         at["begun"] = False
-        rounded_up = self._left < 1  # the stretch, by a tick
+        beyond = self._left < 1  # the stretch lasts no whole number of cycles
         cut = at["last_position"] + 1 < self._end
-        return np.zeros(0, CYCLE) if rounded_up or cut else np.array([at["row"]], CYCLE)
+        return np.zeros(0, CYCLE) if beyond or cut else np.array([at["row"]], CYCLE)
 
 
 @entry

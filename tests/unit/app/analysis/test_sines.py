@@ -168,6 +168,16 @@ def test_a_cycle_that_a_gap_interrupts_counts_but_has_no_peak() -> None:
     assert values["mean_peak_n"] == pytest.approx(np.mean([1000, *range(1002, 1010)]))
 
 
+def test_what_is_beyond_the_last_whole_cycle_is_none() -> None:
+    run = _sine_run(4100, 10.0)
+    run["force_n"] = 1000.0 + run["cycle"]
+    program = [cycles(0, 4100), stretch(Kind.LEAD, 4100, 4200)]
+    for end in (4100, 4099):
+        values = measure(run[:end], program).run
+        assert values["cycles"] == 10
+        assert values["highest_peak_n"] == 1009
+
+
 def test_after_a_hold_the_prediction_is_not_compared_until_the_phase_is_its_own_again() -> None:
     from app.analysis.predicted import Predicted
 
