@@ -54,7 +54,7 @@ def grid_of_band(frequencies_hz: Sequence[float]) -> Grid:
     return Grid(period_ticks, tuple(sorted(lines)))
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=8)  # of up to 3 MB
 def period_of(grid: Grid) -> History:
     """One period at the loop's rate, its first sample again at its end, its greatest value 1."""
     phases = _phases(grid)

@@ -12,7 +12,7 @@ from app.definitions.reading import definition_from
 from app.errors import Refusal
 from tests.unit.app.definitions import bad
 
-SOME = settings(max_examples=400, deadline=None)
+SOME = settings(max_examples=200, deadline=None)
 odd = st.sampled_from(
     [0, -1, 1, 2, 1e-6, 1e-3, 5e-324, 1e-308, 1e-15, 1e15, 1e308, 10**400, 49e3, 1999.9, 0.1]
 )
