@@ -45,13 +45,15 @@ def patient_interlocks(folder: Path) -> Path:
 class ConsoleProcess:
     """Starts, kills and restarts the console on one data directory."""
 
-    def __init__(self, folder: Path, database_url: str | None = None) -> None:
+    def __init__(
+        self, folder: Path, database_url: str | None = None, interlocks: Path | None = None
+    ) -> None:
         self.data = folder / "data"
         self.block = block_path(self.data)
         self._log = folder / "console.log"
         self._environment = os.environ | {
             "FORCERIG_DATA_DIR": str(self.data),
-            "FORCERIG_INTERLOCKS_FILE": str(patient_interlocks(folder)),
+            "FORCERIG_INTERLOCKS_FILE": str(interlocks or patient_interlocks(folder)),
         }
         if database_url is not None:
             self._environment["FORCERIG_DATABASE_URL"] = database_url
