@@ -30,7 +30,15 @@ from app.runs.results_router import router as results_router
 from app.runs.router import router as runs_router
 from app.runs.samples_router import router as samples_router
 from app.security import Guard, known_hosts
-from app.serving import CannotServe, bind, check, hold_data_folder, hold_database, url_of
+from app.serving import (
+    CannotServe,
+    bind,
+    check,
+    go_before_other_work,
+    hold_data_folder,
+    hold_database,
+    url_of,
+)
 from app.settings import VERSION, Settings
 from app.static_files import serve_console
 from app.storage.router import router as storage_router
@@ -116,6 +124,7 @@ def serve(host: str | None = None, port: int | None = None, data_dir: Path | Non
             bind(settings.host, settings.port) as listener,
         ):
             check(settings)
+            go_before_other_work()
             presets = load_presets(settings)
             if isinstance(presets, Refusal):
                 raise CannotServe(presets.detail)

@@ -1,6 +1,8 @@
 """What must be had before the console can serve, and what is said where it cannot be had."""
 
 import socket
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -46,3 +48,16 @@ def test_a_data_directory_that_cannot_be_made_is_told(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(CannotServe, match="cannot use"), hold_data_folder(tmp_path / "file" / "x"):
         pass
+
+
+def test_the_console_goes_before_other_work_where_it_may() -> None:
+    """In a process of its own: what is taken here cannot be given back by everybody."""
+    script = (
+        "import os; from app.serving import go_before_other_work; before = os.nice(0);"
+        "go_before_other_work(); print(before, os.nice(0), os.geteuid())"
+    )
+    said = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    before, after, user = (int(word) for word in said.stdout.split())
+    assert after == (-10 if user == 0 else before)
