@@ -24,7 +24,6 @@ class Settings(BaseSettings):
     controller_file: Path | None = None  # None: as shipped, as for the interlocks
     interlocks_file: Path | None = None
     seed: Annotated[int, Field(ge=0)] = 0
-    period_us: Annotated[int, Field(ge=50, le=1_000_000)] = 250
     margin_us: Annotated[int, Field(ge=0, le=1_000)] = 60
     reserve_bytes: Annotated[int, Field(ge=0)] = 256_000_000  # of the disk, never for samples
     cpu: Annotated[int, Field(ge=0)] | None = None  # the processor that the loop keeps to itself

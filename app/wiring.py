@@ -10,6 +10,7 @@ from app.catalogue.shipped import enter_shipped
 from app.catalogue.written import Reader
 from app.controller.record import to_record as gains_record
 from app.db import Database
+from app.definitions.limits import RIG
 from app.histories.store import Store
 from app.interlocks.record import to_record as interlocks_record
 from app.link.link import Link
@@ -60,7 +61,7 @@ class Console:
         block = block_path(settings.data_dir)
         self.link = Link(LoopCommand.of(settings, block), self.recorder.follow, self._configure)
         self._plans = plans = Plans()
-        kept = StorageSettings(settings.runs_dir, self.period_s(), settings.reserve_bytes)
+        kept = StorageSettings(settings.runs_dir, RIG.period_s, settings.reserve_bytes)
         self.storage = Storage(kept, self.database, self.recorder.state)
         supply_pa = presets.rig.supply.high_pa
         self.status = StatusReader(self.link, self.recorder, plans, supply_pa, self.storage.state)
@@ -91,10 +92,6 @@ class Console:
         )
         self.broadcaster = Broadcaster(lambda: self.link.life, self.status.read)
         self.command_threads = ThreadPoolExecutor(8, thread_name_prefix="commands")
-
-    def period_s(self) -> float:
-        """The period of the loop."""
-        return self.settings.period_us * 1e-6
 
     def open(self) -> None:
         """Migrate, attach to the loop or start one, go on with what was being recorded.
@@ -136,7 +133,7 @@ class Console:
             (Opcode.ADOPT_GAINS, gains_record(self._presets.controller)),
             (
                 Opcode.ADOPT_INTERLOCKS,
-                interlocks_record(self._presets.interlocks, self.period_s()),
+                interlocks_record(self._presets.interlocks, RIG.period_s),
             ),
         )
         for opcode, record in banks:

@@ -29,7 +29,7 @@ class LoopCommand:
         }
         arguments = [
             *("--block", str(block), "--seed", str(settings.seed)),
-            *("--period-us", str(settings.period_us), "--margin-us", str(settings.margin_us)),
+            *("--margin-us", str(settings.margin_us)),
             *(str(part) for pair in optional.items() if pair[1] is not None for part in pair),
         ]
         return LoopCommand(block, settings.data_dir.resolve() / "loop.log", tuple(arguments))

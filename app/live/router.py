@@ -5,6 +5,7 @@ import logging
 
 from fastapi import APIRouter, WebSocket
 
+from app.definitions.limits import RIG
 from app.dependencies import ThisConsole
 from app.errors import Refusal
 from app.live.client import Client, TooSlow
@@ -21,7 +22,7 @@ async def live(socket: WebSocket, stream: ThisConsole) -> None:
     """The live stream, as docs/wire.md has it."""
     await socket.accept()
     client = Client()
-    client.put_message(Hello(period_s=stream.period_s(), version=VERSION).model_dump_json())
+    client.put_message(Hello(period_s=RIG.period_s, version=VERSION).model_dump_json())
     stream.broadcaster.add(client)
     tasks = [asyncio.create_task(job) for job in (client.send(socket), _listen(socket, client))]
     try:
