@@ -39,6 +39,7 @@ class RunFile:
     events: list[LoopEvent] = field(default_factory=list)
     _part: PartWriter | None = None
     _overview: LiveOverview | None = None
+    _because: str = ""
 
     @staticmethod
     def open(run_id: int, runs_dir: Path, began_at: int) -> "RunFile":
@@ -98,7 +99,8 @@ class RunFile:
         return Recorded(self.began_at, last, self.extent.ticks, missing)
 
     def stopped_because(self, reason: str) -> None:
-        """The console itself stops this run, and why: kept beside the samples. Raises `OSError`."""
+        """The console itself stops this run, and why: kept beside the samples too. Raises `OSError`."""
+        self._because = reason
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / STOPPED_BECAUSE).write_text(reason)
 
@@ -107,12 +109,13 @@ class RunFile:
         ending = ending_of(self.events)
         if ending.outcome is not Outcome.STOPPED:
             return ending
+        return Ending(ending.outcome, self._because or self._kept_reason() or ending.reason)
+
+    def _kept_reason(self) -> str:
         try:
-            return Ending(
-                ending.outcome, (self.folder / STOPPED_BECAUSE).read_text() or ending.reason
-            )
+            return (self.folder / STOPPED_BECAUSE).read_text()
         except OSError:
-            return ending
+            return ""
 
     def abandon_part(self) -> None:
         """Begin a new part with the next records: the present one may be torn, or is done."""

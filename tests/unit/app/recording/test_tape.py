@@ -9,6 +9,7 @@ import pytest
 
 from app.recording.outcome import Outcome
 from app.recording.parts import PartWriter, part_paths
+from app.recording.run_file import STOPPED_BECAUSE
 from rtcore.codes import EventKind, Opcode
 from rtcore.modes import Mode
 from tests.unit.app.recording.paper_book import Desk, PaperBook, recorded_ticks
@@ -347,3 +348,53 @@ def test_a_full_disk_costs_no_tick_once_there_is_room(
     assert np.array_equal(recorded_ticks(tmp_path, 1), np.arange(200))
     assert book.ends[1][0].missing_ticks == 0
     assert book.ends[1][1].outcome is Outcome.COMPLETED
+
+
+DISK_FULL = "Stopped: the disk was full"
+
+
+@pytest.mark.parametrize("killed", [False, True])
+@pytest.mark.parametrize("room", [False, True])
+def test_a_run_that_the_console_stops_says_why(
+    loop: WrittenBlock, book: PaperBook, tmp_path: Path, *, killed: bool, room: bool
+) -> None:
+    desk = Desk(loop, tmp_path, book)
+    book.enter(1)
+    loop.begin(1)
+    loop.ticks(100, run=1)
+    desk.drain()
+    assert desk.tape.current is not None
+    desk.tape.current.stopped_because(DISK_FULL)
+    if not room:
+        (tmp_path / "1" / STOPPED_BECAUSE).write_text("")
+    loop.obey(Opcode.STOP)
+    loop.go(Mode.STOPPING)
+    if killed:
+        desk.kill()
+        desk = Desk(loop, tmp_path, book)
+    loop.ticks(10, run=1)
+    loop.go(Mode.READY)
+    loop.ticks(1)
+    desk.drain()
+    _, ending = book.ends[1]
+    told = room or not killed
+    assert ending.outcome is Outcome.STOPPED
+    assert ending.reason == (DISK_FULL if told else "Stopped by the operator")
+    assert not (tmp_path / "1" / STOPPED_BECAUSE).exists()
+
+
+def test_a_run_that_ended_before_the_console_could_stop_it_is_completed(
+    loop: WrittenBlock, book: PaperBook, tmp_path: Path
+) -> None:
+    desk = Desk(loop, tmp_path, book)
+    book.enter(1)
+    loop.begin(1)
+    loop.ticks(100, run=1)
+    desk.drain()
+    assert desk.tape.current is not None
+    desk.tape.current.stopped_because(DISK_FULL)
+    loop.report(EventKind.PROGRAM_ENDED, 1)
+    loop.go(Mode.READY)
+    loop.ticks(1)
+    desk.drain()
+    assert (book.ends[1][1].outcome, book.ends[1][1].reason) == (Outcome.COMPLETED, None)
