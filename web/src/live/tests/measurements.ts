@@ -1,22 +1,18 @@
 // What a test may be accepted by, and in which units its limits are written in the form.
 
-import { PERCENT, PLAIN, quantityOf, RATIO, type Quantity } from "../../units";
+import { MEASUREMENTS } from "../../gen/measurements";
+import { quantityOfUnit } from "../../quantities";
+import { ANGLE, type Quantity } from "../../units";
 
-export const MEASUREMENTS: readonly string[] = [
-  "force_error_rms_n",
-  "force_error_peak_n",
-  "peak_force_n",
-  "peak_displacement_m",
-  "valve_saturation_share",
-  "goodness_of_fit",
-  "step_overshoot_percent",
-  "step_rise_s",
-  "step_settling_s",
-];
+const BY_NAME = new Map<string, { readonly unit: string; readonly doc: string }>(
+  MEASUREMENTS.map((one) => [one.name, one]),
+);
+
+export const MEASUREMENT_NAMES: readonly string[] = [...BY_NAME.keys()];
+
+export const aboutMeasurement = (name: string): string => BY_NAME.get(name)?.doc ?? "";
 
 export function quantityOfMeasurement(name: string): Quantity {
-  if (name === "goodness_of_fit") return PERCENT;
-  if (name.endsWith("_share")) return RATIO;
-  const quantity = quantityOf(name);
-  return quantity.symbol === "" ? PLAIN : quantity;
+  const unit = BY_NAME.get(name)?.unit ?? "1";
+  return unit === "°" ? ANGLE : quantityOfUnit(unit, name);
 }

@@ -32,6 +32,7 @@ export interface PreviewEvents {
 export class PreviewPlot {
   private plot: uPlot;
   private picture: PreviewPicture = { shown: { from_s: 0, to_s: 1 }, band: EMPTY, blocks: [], edited: null };
+  private fontSize = 0;
   private readonly ends: (() => void)[];
 
   constructor(
@@ -71,6 +72,7 @@ export class PreviewPlot {
   }
 
   private build(): uPlot {
+    this.fontSize = fontSize();
     const extreme = line(this.quantity.label, "--setpoint", 1.25);
     const options: uPlot.Options = {
       width: this.host.clientWidth,
@@ -181,6 +183,7 @@ export class PreviewPlot {
   }
 
   private resize(): void {
+    if (fontSize() !== this.fontSize) return this.rebuild();
     this.plot.setSize({ width: this.host.clientWidth, height: this.host.clientHeight });
   }
 }
