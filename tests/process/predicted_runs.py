@@ -112,7 +112,7 @@ def _peak_n(console: ConsoleProcess, run_id: int) -> float:
 
 
 def _samples(console: ConsoleProcess, run_id: int, channel: str) -> dict[str, list[float]]:
-    asked = {"channels": channel, "points": 20_000}
+    asked: dict[str, str | int] = {"channels": channel, "points": 20_000}
     found: dict[str, dict[str, list[float]]] = console.http.get(
         f"/runs/{run_id}/samples", params=asked
     ).json()["channels"]
