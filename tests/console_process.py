@@ -117,7 +117,8 @@ class ConsoleProcess:
 
     def _end(self, number: int) -> int:
         assert self._process is not None
-        self.http.close()
+        if self.url:
+            self.http.close()
         self._process.send_signal(number)
         return self._process.wait(60)
 
