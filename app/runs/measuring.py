@@ -17,11 +17,10 @@ from app.definitions.reading import definition_from
 from app.errors import Refusal
 from app.histories.history import Histories
 from app.prediction.judgement import Judged, judge_measured, measuring
+from app.prediction.series_file import NAME as PREDICTED
 from app.recording.samples import Samples, open_samples
 from app.runs.acquiring import asked
 from app.runs.acquisition_files import AcquisitionWriter, acquisition_path, writing
-
-PREDICTED = "predicted.parquet"
 
 
 @dataclass(frozen=True)
