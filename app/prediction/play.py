@@ -23,6 +23,9 @@ from rtcore.virtual import Virtual
 
 RUN_NUMBER = 1
 CHUNK_TICKS = 4000
+SETTLED_S = (
+    1.0  # after it is ready: the supply comes up to its last bar, as before any test on a rig
+)
 HELD_S = 1.0  # nobody resumes on the virtual rig: held this long, a run is over
 MOST_EVENTS = 2000  # that are kept: a program of a million blocks has a million
 
@@ -122,10 +125,12 @@ def made_ready(setup: Setup, kept_ticks: int = 0) -> Play | Refusal:
     """The virtual rig pressurised and the test loaded. Refused where this rig cannot have it."""
     ticks = round(outline(setup.definition).duration_s / RIG.period_s)
     try:
-        rig = WatchedRig(setup)
-        rig.bring_to_ready()
+        rig = _ready(setup)
     except (RuntimeError, ValueError) as error:
         return Refusal(Code.INVALID_REQUEST, f"The virtual rig does not become ready: {error}")
+    if int(rig.io.core["trips"]) != 0:
+        detail = "An interlock is latched as soon as the virtual rig is ready: no test could start"
+        return Refusal(Code.CAUSE_PRESENT, detail)
     if rig.load_program(expand(setup.definition)) != Reply.ACCEPTED:
         detail = "The test goes beyond the limits of this rig: compare the stroke of its unit"
         return Refusal(Code.INVALID_BANK, detail)
@@ -138,3 +143,16 @@ def made_ready(setup: Setup, kept_ticks: int = 0) -> Play | Refusal:
         RIG.period_s,
     )
     return Play(setup, rig, watch, ticks)
+
+
+def _ready(setup: Setup) -> WatchedRig:
+    """A rig at rest; one that does not stay so is taken as it was when it had just become ready."""
+    for settles in (True, False):
+        rig = WatchedRig(setup)
+        rig.bring_to_ready()
+        if not settles:
+            break
+        rig.advance(round(SETTLED_S / RIG.period_s))
+        if rig.mode == Mode.READY and int(rig.io.core["trips"]) == 0:
+            break
+    return rig
