@@ -1,5 +1,6 @@
 """What a kill leaves of a part: whole batches, in order, each once, and nothing torn."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 from app.recording.columns import as_records
 from app.recording.extent import extent_of
+from app.recording.part_index import read_index
 from app.recording.parts import PartWriter, part_paths, read_part, read_parts
 from rtcore.channels import TELEMETRY
 
@@ -96,3 +98,34 @@ def test_an_empty_part_is_no_part(tmp_path: Path) -> None:
     (tmp_path / "part-0002.arrows").touch()
     assert list(read_parts(tmp_path)) == []
     assert extent_of(tmp_path).ticks == 0
+
+
+def test_a_write_that_takes_only_some_is_gone_on_with(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A disk that is nearly full takes what it has room for, and says how much that was."""
+    write = os.write
+    part = PartWriter(tmp_path)
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "write", lambda file, content: write(file, content[:1000]))
+        part.append(records(0))
+    part.append(records(BATCH))
+    assert part.size_bytes == part.path.stat().st_size
+    assert ticks_of(part.path) == list(range(2 * BATCH))
+    part.close()
+
+
+@pytest.mark.parametrize("first", [0, 3000, 4095, 4096, 9000, 20_000, 49_999])
+def test_a_reader_that_begins_in_the_middle_finds_the_same(tmp_path: Path, first: int) -> None:
+    part = PartWriter(tmp_path)
+    for tick in range(0, 50_000, BATCH):
+        part.append(records(tick))
+    part.close()
+    for verify in (True, False):
+        begun = [
+            b.column("tick").to_numpy()
+            for b in read_parts(tmp_path, verify=verify, from_tick=first)
+        ]
+        ticks = np.concatenate(begun)
+        assert np.array_equal(ticks, np.arange(first, 50_000))
+    assert len(read_index(part.path)) == 13
