@@ -32,6 +32,7 @@ from sqlalchemy.types import TypeEngine
 from app.settings import Settings
 
 BUSY_TIMEOUT_MS = 15_000
+NO_NUL = r"^[^\x00]*$"  # PostgreSQL keeps every character but this
 _PRAGMAS = (
     "PRAGMA journal_mode=WAL",
     "PRAGMA synchronous=FULL",  # an acknowledged commit survives a power cut

@@ -3,6 +3,7 @@
 What comes from outside is believed in nothing: names, sizes and counts are all checked.
 """
 
+import struct
 import zipfile
 import zlib
 from collections.abc import Mapping
@@ -33,14 +34,14 @@ def unpack(packed: bytes) -> dict[str, str] | Refusal:
     try:
         with zipfile.ZipFile(BytesIO(packed)) as archive:
             return _texts(archive)
-    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError) as error:
+    except (zipfile.BadZipFile, zlib.error, struct.error, EOFError, ValueError, OSError) as error:
         return _refuse("", f"this is no zip file that can be read: {error}")
     except (NotImplementedError, RuntimeError) as error:  # unknown compression, or encrypted
         return _refuse("", f"this zip file cannot be read: {error}")
 
 
 def _texts(archive: zipfile.ZipFile) -> dict[str, str] | Refusal:
-    entries = [entry for entry in archive.infolist() if not entry.is_dir()]
+    entries = [entry for entry in archive.infolist() if not entry.filename.endswith("/")]
     if len(entries) > MOST_FILES:
         return _refuse("", f"{len(entries):,} files, must be at most {MOST_FILES:,}")
     texts: dict[str, str] = {}

@@ -12,6 +12,7 @@ from pydantic import (
     model_validator,
 )
 
+from app.db import NO_NUL
 from app.definitions.blocks import Layer
 from app.definitions.difference import ChangeKind
 from app.definitions.outline import Outline
@@ -26,10 +27,12 @@ def _each_once(tags: list[str]) -> list[str]:
 
 
 TestId = Annotated[str, StringConstraints(pattern=r"^[a-z0-9][a-z0-9-]*$", max_length=LONGEST_ID)]
-Tag = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=50)]
+Tag = Annotated[
+    str, StringConstraints(pattern=NO_NUL, strip_whitespace=True, min_length=1, max_length=50)
+]
 Tags = Annotated[list[Tag], Field(max_length=50), AfterValidator(_each_once)]
-Author = Annotated[str, StringConstraints(strip_whitespace=True, max_length=100)]
-Comment = Annotated[str, StringConstraints(strip_whitespace=True, max_length=500)]
+Author = Annotated[str, StringConstraints(pattern=NO_NUL, strip_whitespace=True, max_length=100)]
+Comment = Annotated[str, StringConstraints(pattern=NO_NUL, strip_whitespace=True, max_length=500)]
 Yaml = Annotated[str, Field(max_length=MAX_BYTES, description="as written, with its comments")]
 Number = Annotated[int, Field(ge=1, le=2**31 - 1)]
 

@@ -8,7 +8,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
-from sqlalchemy import ColumnElement, cast, column, func, literal_column, select, table
+from sqlalchemy import (
+    ColumnElement,
+    ScalarSelect,
+    Select,
+    cast,
+    column,
+    func,
+    literal_column,
+    select,
+    table,
+)
 from sqlalchemy.dialects.postgresql import TSQUERY
 from sqlalchemy.orm import InstrumentedAttribute, Session
 
@@ -52,26 +62,41 @@ class Sought:
 
 def ids(session: Session, sought: Sought, before: int | None, limit: int) -> Sequence[int]:
     """The numbers of the runs that are sought, the newest first."""
-    conditions = _conditions(sought)
+    times = _times(sought)
+    conditions = [*times, *([Run.outcome.is_(None)] if sought.outcome == UNDER_WAY else [])]
     number: ColumnElement[int] = Run.__table__.c.id
     if sought.words or sought.facets:
         number = _WITH_WORDS[session.get_bind().dialect.name](sought, conditions)
+        conditions += _between(sought, times, number)
     if before is not None:
         conditions.append(number < before)
     query = select(number).where(*conditions).order_by(number.desc()).limit(limit)
     return session.scalars(query).all()
 
 
-def _conditions(sought: Sought) -> list[ColumnElement[bool]]:
-    """On the rows themselves."""
+def _times(sought: Sought) -> list[ColumnElement[bool]]:
     found = []
     if sought.since is not None:
         found.append(Run.started_at >= sought.since)
     if sought.until is not None:
         found.append(Run.started_at < sought.until)
-    if sought.outcome == UNDER_WAY:
-        found.append(Run.outcome.is_(None))
     return found
+
+
+def _between(
+    sought: Sought, times: list[ColumnElement[bool]], number: ColumnElement[int]
+) -> list[ColumnElement[bool]]:
+    """Between which numbers the times lie: the walk through the words begins and ends there.
+
+    Clocks are put right now and then, so the times themselves are asked for as well.
+    """
+    first, last = (select(of(Run.id)).where(*times) for of in (func.min, func.max))
+    found = [number >= _by_time(first)] if sought.since is not None else []
+    return [*found, number <= _by_time(last)] if sought.until is not None else found
+
+
+def _by_time(query: Select[int]) -> ScalarSelect[int]:
+    return query.with_hint(Run, "INDEXED BY runs_started", "sqlite").scalar_subquery()
 
 
 def _sqlite(sought: Sought, conditions: list[ColumnElement[bool]]) -> ColumnElement[int]:

@@ -5,15 +5,18 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field, StringConstraints
 
+from app.db import NO_NUL
 from app.recording.outcome import Outcome
 from app.runs.models import Run, RunEvent
 
 LONGEST_NOTES = 20_000
 SHOWN_NOTES = 200  # in a list
 
-Tag = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=50)]
-Operator = Annotated[str, StringConstraints(strip_whitespace=True, max_length=100)]
-Notes = Annotated[str, Field(max_length=LONGEST_NOTES)]
+Tag = Annotated[
+    str, StringConstraints(pattern=NO_NUL, strip_whitespace=True, min_length=1, max_length=50)
+]
+Operator = Annotated[str, StringConstraints(pattern=NO_NUL, strip_whitespace=True, max_length=100)]
+Notes = Annotated[str, Field(pattern=NO_NUL, max_length=LONGEST_NOTES)]
 
 
 def _of_our_time(moment: datetime) -> datetime:
@@ -39,7 +42,9 @@ class RunStart(BaseModel):
 
     test_id: Annotated[str, Field(min_length=1, max_length=100)]
     revision: Annotated[int, Field(ge=1, le=2**31 - 1)] | None = None
-    override_reason: Annotated[str, Field(min_length=1, max_length=500)] | None = None
+    override_reason: Annotated[str, Field(pattern=NO_NUL, min_length=1, max_length=500)] | None = (
+        None
+    )
     operator: Operator = ""
     notes: Notes = ""
     tags: Tags = ()

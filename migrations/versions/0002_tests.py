@@ -281,7 +281,7 @@ def _rows(table: sa.TableClause) -> Iterator[Row[Any]]:
 def _search_sqlite() -> None:
     op.execute(
         "CREATE VIRTUAL TABLE runs_words USING fts5(words, content='', columnsize=0, "
-        "detail='none', tokenize='ascii', prefix='1 2 3 4')"
+        "detail='none', tokenize='ascii', prefix='1 2 3 4 5 6 7 8')"
     )
     op.execute("INSERT INTO runs_words (rowid, words) SELECT id, words || ' ' || id FROM runs")
     gone = (
