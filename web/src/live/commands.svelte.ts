@@ -42,8 +42,8 @@ class Commands {
   }
 
   private async start(overriding: boolean): Promise<void> {
-    const { id, revision } = tests.chosen!;
-    await startRun(id, { revision, ...entry.body(overriding) });
+    const test = tests.chosen!;
+    await startRun(test.id, { revision: entry.revisionOf(test), ...entry.body(overriding) });
     entry.started();
   }
 }

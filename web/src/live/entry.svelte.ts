@@ -17,9 +17,16 @@ class Entry {
   notes = $state("");
   tags = $state("");
   reason = $state("");
+  /** A revision that is to run again, where it is not the newest of its test. */
+  again = $state.raw<{ readonly testId: string; readonly revision: number } | null>(null);
   /** The reason is asked for, beside Start. */
   asking = $state(false);
   readonly hasReason = $derived(isReason(this.reason));
+
+  /** Which revision of a test Start will run: the newest, unless an older one is to run again. */
+  revisionOf({ id, revision }: { readonly id: string; readonly revision: number }): number {
+    return this.again?.testId === id ? this.again.revision : revision;
+  }
 
   keepOperator(): void {
     localStorage.setItem(OPERATOR, this.operator.trim());

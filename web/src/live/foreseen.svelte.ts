@@ -1,5 +1,6 @@
 // What was predicted of a run, for the stretch that is looked at. Latest wins; what is there stays until then.
 
+import { Problem } from "./api";
 import { runPredicted } from "./book";
 import { textOf } from "./messages.svelte";
 import type { PredictedBands } from "./types";
@@ -12,11 +13,14 @@ export class ForeseenRun {
   failure = $state("");
   private asked = new AbortController();
   private timer = 0;
+  /** Nothing was kept of this run: asking again does not change that. */
+  private none = false;
 
   constructor(private readonly runId: number) {}
 
   look({ from_s, to_s }: { from_s: number; to_s: number }, points: number): void {
     window.clearTimeout(this.timer);
+    if (this.none) return;
     this.timer = window.setTimeout(() => void this.read(from_s, to_s, points), SETTLE_MS);
   }
 
@@ -30,7 +34,9 @@ export class ForeseenRun {
       this.bands = bands;
       this.failure = "";
     } catch (error) {
-      if (!signal.aborted) this.failure = `No prediction to draw. ${textOf(error)}`;
+      if (signal.aborted) return;
+      this.none = error instanceof Problem && error.status === 404;
+      this.failure = `No prediction to draw. ${textOf(error)}`;
     }
   }
 }
