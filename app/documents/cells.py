@@ -47,7 +47,7 @@ class Style:
 
     def number(self, cell: str) -> float | None:
         """A cell as a number; None where it is none. NaN and infinity are none."""
-        text = cell.replace(",", ".") if self.decimal == "," and "." not in cell else cell
+        text = cell.replace(",", ".") if self.decimal == "," else cell
         value = float(text) if _NUMBER.fullmatch(text) else math.inf
         return value if math.isfinite(value) else None
 

@@ -159,6 +159,8 @@ RESPONSES = [
 HISTORIES = [
     Bad(with_blocks(history(samples_n=[0, 60e3], rate_hz=1)), "blocks[0].samples_n", 60e3, 50e3,
         "N", "reaches 60,000 N, must be at most 50,000 N"),
+    Bad(with_blocks(history(samples_n=[0, -51e3, 1], rate_hz=1)), "blocks[0].samples_n", 51e3,
+        50e3, "N", "reaches 51,000 N"),
     Bad(with_blocks(history(gain=-200)), "blocks[0].samples_n", 100e3, 50e3, "N",
         "reaches 100,000 N"),
     Bad(with_blocks(history(samples_n=[0, 0, 0, 0, 9e3, 9e3], rate_hz=1000)),
