@@ -13,6 +13,7 @@ const FAULTS = [fault("blocks[1].to_n", 7), fault("blocks[1]", 6), fault("blocks
 describe("faults", () => {
   it("are shown at their field, and nowhere else", () => {
     expect(faultsAt(FAULTS, ["blocks", 1, "to_n"])).toEqual([FAULTS[0]]);
+    expect(faultsAt(FAULTS, ["blocks", 1])).toEqual([FAULTS[1]]);
     expect(faultsWithin(FAULTS, ["blocks", 1])).toEqual([FAULTS[0], FAULTS[1]]);
     expect(faultsBeside(FAULTS, ["blocks", 1], ["to_n"])).toEqual([FAULTS[1]]);
   });

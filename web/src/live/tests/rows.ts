@@ -23,3 +23,19 @@ export function rowsOf(tree: Json, list: Path, depth = 0, prefix = ""): Row[] {
     ];
   });
 }
+
+const PAGE = 10;
+const STEPS: Readonly<Record<string, (at: number, last: number) => number>> = {
+  ArrowDown: (at) => at + 1,
+  ArrowUp: (at) => at - 1,
+  PageDown: (at) => at + PAGE,
+  PageUp: (at) => at - PAGE,
+  Home: () => 0,
+  End: (_, last) => last,
+};
+
+/** Where a key leads to from a row of so many; null where it leads nowhere. */
+export function rowAfter(key: string, at: number, rows: number): number | null {
+  const step = STEPS[key];
+  return step === undefined ? null : Math.min(Math.max(0, step(at, rows - 1)), rows - 1);
+}

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { rowsOf } from "./rows";
+import { rowAfter, rowsOf } from "./rows";
 import {
   blockOf,
   duplicateAt,
@@ -92,5 +92,15 @@ describe("paths", () => {
 
   it("are numbered as a person counts", () => {
     expect(rowsOf(TEST, ["blocks"]).map((row) => row.number)).toEqual(["1", "2", "2.1", "2.2", "3"]);
+  });
+});
+
+describe("keys in a list", () => {
+  it("lead to rows that there are", () => {
+    expect(["ArrowDown", "ArrowUp", "PageDown", "PageUp", "Home", "End"].map((key) => rowAfter(key, 2, 15))).toEqual([
+      3, 1, 12, 0, 0, 14,
+    ]);
+    expect(rowAfter("ArrowDown", 14, 15)).toBe(14);
+    expect(rowAfter("x", 2, 15)).toBeNull();
   });
 });
