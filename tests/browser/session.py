@@ -4,7 +4,7 @@ import re
 
 from playwright.sync_api import Page, expect
 
-from tests.console_process import ConsoleProcess
+from tests.console_process import ConsoleProcess, wait_for
 
 HARMONIC = "harmonic-2-kn-50-hz"
 
@@ -29,3 +29,13 @@ def make_ready(page: Page, console: ConsoleProcess) -> None:
     is_at(page, "off")
     page.get_by_test_id("cmd-pressurise").click()
     is_at(page, "ready")
+
+
+def predict(console: ConsoleProcess, test_id: str) -> None:
+    """Have a test predicted: a start waits for that, but not for ever."""
+
+    def known() -> bool:
+        answer = console.http.post(f"/tests/{test_id}/prediction", json={"wait_s": 10})
+        return "verdict" in answer.json()
+
+    wait_for(known, f"the prediction of {test_id}")

@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.session import HARMONIC
+from tests.browser.session import HARMONIC, predict
 from tests.console_process import ConsoleProcess
 
 pytestmark = [pytest.mark.browser, pytest.mark.process, pytest.mark.slow]
@@ -21,6 +21,7 @@ def _patient() -> None:
 @pytest.fixture(scope="module")
 def recorded(console: ConsoleProcess) -> int:
     """A run of the 50 Hz example that has ended."""
+    predict(console, HARMONIC)
     console.make_ready()
     run_id = console.start_run(HARMONIC)
     assert console.ended_run(run_id)["outcome"] == "completed"
