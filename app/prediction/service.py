@@ -1,7 +1,5 @@
 """Predictions of this console: computed beside everything else, each once, and kept for who asks again."""
 
-import os
-import sys
 import threading
 import time
 from collections import OrderedDict
@@ -21,7 +19,6 @@ from app.prediction.setup import Setup
 from rtcore.rig.parameters import RigParameters
 
 WORKERS = 2  # so that one of a day's test does not keep the others waiting
-NICENESS = 10  # below everything that serves the rig
 MOST_KEPT_BYTES = 100_000_000  # of force and displacement; the newest is kept whatever it takes
 LEAST_SHARE = 0.02  # before that nothing can be said of the time that is left
 ENDING = Refusal(Code.BUSY, "The console is being ended: the prediction was given up")
@@ -59,7 +56,9 @@ class Predictions:
     ) -> None:
         self._settings = (rig, controller, interlocks)
         self._predict = predictor
-        self._workers = ThreadPoolExecutor(WORKERS, "prediction", initializer=_be_nice)
+        # At the priority of the console's other threads: one that is put off by other work while it
+        # holds the interpreter's lock puts off the heartbeat too.
+        self._workers = ThreadPoolExecutor(WORKERS, "prediction")
         self._jobs: dict[str, _Job] = {}
         self._kept: OrderedDict[str, Predicted] = OrderedDict()
         self._lock = threading.Lock()
@@ -125,9 +124,3 @@ class Predictions:
         self._kept[key] = found
         while len(self._kept) > 1 and sum(p.nbytes for p in self._kept.values()) > MOST_KEPT_BYTES:
             self._kept.popitem(last=False)
-
-
-def _be_nice() -> None:
-    """A thread has a niceness of its own on Linux; elsewhere the whole process would get it."""
-    if sys.platform == "linux":
-        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)
