@@ -183,7 +183,7 @@ def on_the_virtual_clock(definition: Definition) -> npt.NDArray[Any]:
 def run_live(console: ConsoleProcess, definition: Definition) -> Any:
     console.make_ready()
     wait_for(
-        lambda: abs(console.status()["channels"]["displacement_command_m"]) < 1e-9,
+        lambda: abs(console.status()["readings"]["displacement_command_m"]) < 1e-9,
         "the unit in its middle",
     )
     data = definition.model_dump(mode="json", by_alias=True, exclude_none=True)
