@@ -6,7 +6,7 @@ import signal
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.session import HARMONIC, choose, is_at, make_ready
+from tests.browser.session import HARMONIC, choose, is_at, make_ready, predict
 from tests.console_process import ConsoleProcess, wait_for
 
 pytestmark = [pytest.mark.browser, pytest.mark.process, pytest.mark.slow]
@@ -54,9 +54,19 @@ def test_the_50_hz_example_runs_to_its_end(page: Page, console: ConsoleProcess) 
 
 
 def test_a_hold_shows_what_resume_will_do(page: Page, console: ConsoleProcess) -> None:
+    layer = {"mean_n": 0, "amplitude_n": 1000, "frequency_hz": 10, "cycles": 10}
+    definition = {
+        "schema": 1,
+        "name": "Long enough to hold",
+        "blocks": [{"kind": "layers", "layers": [layer], "repeats": 200, "transition_s": 0.2}],
+    }
+    made = console.http.post("/tests", json={"definition": definition})
+    assert made.status_code == 201, made.text
+    test_id = made.json()["id"]
+    predict(console, test_id)
     make_ready(page, console)
-    choose(page, HARMONIC)
-    page.get_by_test_id("cmd-start").click()
+    start = {"test_id": test_id, "override_reason": "It is to be held"}
+    assert console.http.post("/runs", json=start).status_code == 201
     is_at(page, "running")
     page.get_by_test_id("cmd-hold").click()
     is_at(page, "holding")
@@ -64,6 +74,7 @@ def test_a_hold_shows_what_resume_will_do(page: Page, console: ConsoleProcess) -
     expect(preview.get_by_test_id("resume-words")).not_to_be_empty()
     expect(preview.locator("canvas")).to_have_count(2)
     page.get_by_test_id("cmd-resume").click()
+    is_at(page, "running")
     expect(preview).to_have_count(0)
     page.get_by_test_id("stop").click()
     is_at(page, "ready")

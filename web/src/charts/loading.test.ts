@@ -83,6 +83,12 @@ describe("composed", () => {
     expect(composed(state, { from_s: 0, to_s: 20 })).toBe(state.overview!.samples);
   });
 
+  it("is every tick only where no coarse stretch is beside the ticks", () => {
+    const state = give(looked(opened(), at(40, 40.1), 800, "force"), false);
+    expect(composed(state, { from_s: 40.02, to_s: 40.08 })!.decimated).toBe(false);
+    expect(composed(state, RUN)!.decimated).toBe(true);
+  });
+
   it("is nothing before the first answer", () => {
     expect(composed(EMPTY, RUN)).toBeNull();
   });

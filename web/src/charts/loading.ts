@@ -106,5 +106,6 @@ export function composed({ overview, fine }: Loading, window: TimeWindow): RunSa
       return [name, coarse ? { min: join(coarse.min, band.min), max: join(coarse.max, band.max) } : band];
     }),
   );
-  return { ...fine.samples, time_s: join(time, fine.samples.time_s), channels };
+  const decimated = fine.samples.decimated || overview.samples.decimated;
+  return { ...fine.samples, decimated, time_s: join(time, fine.samples.time_s), channels };
 }
