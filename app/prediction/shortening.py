@@ -4,24 +4,31 @@ Whole cycles and whole passes are left out, so the setpoint goes through the sam
 block is lost. A first pass may begin elsewhere than those after it: then two are kept.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from app.definitions.definition import Definition
-from app.definitions.outline import BlockOutline, MotionOutline, Outline, outline
+from app.definitions.outline import outline
 from app.prediction.cutting import Cut, cut_blocks, cut_motions
+from app.prediction.meeting import unlike
 
 WHOLE_S = 60.0  # a test that lasts no longer is predicted whole
 TOGETHER_S = (
     1800.0  # nor is one of which loads and motions would come apart, as long as that takes a minute
 )
-KEEP_S = 5.0  # of a steady load, a hold or what repeats
+KEEP_S = (
+    5.0,
+    60.0,
+    300.0,
+)  # of a steady load, a hold or what repeats; more where a motion needs it
 
 
 @dataclass(frozen=True)
 class Shortened:
     """A definition that is as long as it need be, and what of the whole is not in it.
 
-    `apart` are pairs of block and motion, by number, that meet in the whole test and not in this one.
+    `apart` are pairs of block and motion, by number, that do not meet in this one as they do in the
+    whole test: not for as long, or not at every phase.
     """
 
     definition: Definition
@@ -31,22 +38,37 @@ class Shortened:
 
 def shorten(definition: Definition) -> Shortened:
     """The definition itself where it is short enough, or what stands for all of it."""
-    whole = outline(definition)
-    if whole.duration_s <= WHOLE_S:
+    whole_s = outline(definition).duration_s
+    if whole_s <= WHOLE_S:
         return Shortened(definition)
-    found = _cut(definition, whole, KEEP_S)
-    if found.apart:  # blocks so long that each meets every motion
-        moved_s = outline(found.definition).motion_duration_s
-        found = _cut(definition, whole, max(KEEP_S, moved_s), motion=found)
-    shorter_s = outline(found.definition).duration_s
-    if (found.apart and whole.duration_s <= TOGETHER_S) or shorter_s >= whole.duration_s:
+    found = min(_tried(definition), key=lambda tried: len(tried.apart))
+    if (found.apart and whole_s <= TOGETHER_S) or _lasts_s(found) >= whole_s:
         return Shortened(definition)
     return found
 
 
-def _cut(
-    definition: Definition, whole: Outline, keep_s: float, motion: Shortened | None = None
-) -> Shortened:
+def _tried(definition: Definition) -> Iterator[Shortened]:
+    """Cut ever less, until load and motion meet in it as they do in the whole."""
+    for keep_s in KEEP_S:
+        found = _cut(definition, keep_s)
+        yield found
+        if not found.apart:
+            return
+        moved_s = outline(
+            found.definition
+        ).motion_duration_s  # so long that each meets every motion
+        more = _cut(definition, max(keep_s, moved_s), motion=found)
+        if _lasts_s(more) <= TOGETHER_S:
+            yield more
+            if not more.apart:
+                return
+
+
+def _lasts_s(found: Shortened) -> float:
+    return outline(found.definition).duration_s
+
+
+def _cut(definition: Definition, keep_s: float, motion: Shortened | None = None) -> Shortened:
     """Blocks cut to `keep_s`, and motions as cut before, or to what the blocks then last."""
     blocks, cuts = cut_blocks(definition.blocks, keep_s)
     shorter = definition.model_copy(update={"blocks": blocks})
@@ -56,15 +78,5 @@ def _cut(
         moved = motion.definition.motion
         more = [cut for cut in motion.cuts if cut.path.startswith("motion")]
     shorter = shorter.model_copy(update={"motion": moved})
-    apart = _meetings(whole) - _meetings(outline(shorter))
+    apart = unlike(definition, shorter) if definition.motion else set()
     return Shortened(shorter, (*cuts, *more), tuple(sorted(apart)))
-
-
-def _meetings(plan: Outline) -> set[tuple[int, int]]:
-    """Which block meets which motion."""
-    return {(b.index, m.index) for b in plan.blocks for m in plan.motion if _meet(b, m)}
-
-
-def _meet(block: BlockOutline, motion: MotionOutline) -> bool:
-    began_s = max(block.start_s, motion.start_s)
-    return began_s < min(block.start_s + block.duration_s, motion.start_s + motion.duration_s)

@@ -197,8 +197,8 @@ def _criteria(found: Findings) -> Iterator[Reason]:
 def _apart(found: Findings) -> Iterator[Reason]:
     for block, motion in found.apart:
         text = (
-            f"Block {block + 1} under motion {motion + 1} is not predicted: the test is too long for"
-            " all of it, and they do not meet in what was predicted"
+            f"Block {block + 1} under motion {motion + 1} is not predicted as it will run: the test is too"
+            " long for all of it, and in what was predicted they do not meet at every phase, or not as long"
         )
         yield _reason("not_predicted", text, "caution", block)
 

@@ -120,6 +120,56 @@ def test_what_would_come_apart_is_predicted_whole_where_that_is_quick() -> None:
     assert shorten(whole).apart == ()
 
 
+def _swing(hz: float, seconds: float) -> dict[str, Any]:
+    return {"kind": "harmonic", "amplitude_m": 0.02, "frequency_hz": hz, "duration_s": seconds}
+
+
+def test_all_of_a_motion_is_seen_under_a_block_however_steady_that_is() -> None:
+    hold = {"kind": "hold", "force_n": 10e3, "duration_s": 3600.0}
+    samples = [0.0] * 6000 + [0.0005, 0.0]  # the unit moves in the sixtieth second only
+    jolt = {"kind": "time_history", "samples_m": samples, "rate_hz": 100.0}
+    for motion, needs_s in ((jolt, 60.0), (_swing(0.05, 3600.0), 60.0)):
+        found = shorten(_valid([hold], [motion]))
+        assert found.apart == ()
+        assert needs_s <= outline(found.definition).duration_s < 600
+
+
+def _steps(hold_s: float, times: int) -> dict[str, Any]:
+    up, down = ({"kind": "step", "to_n": to, "hold_s": hold_s} for to in (5e3, -5e3))
+    return {"kind": "repeat", "times": times, "blocks": [up, down]}
+
+
+def test_what_repeats_out_of_step_with_a_motion_is_predicted_at_every_phase() -> None:
+    drifting = [_steps(0.505, 100)], [_swing(1.0, 101.0)]
+    assert shorten(_valid(*drifting)).cuts == ()  # a minute or two: all of it
+    long = shorten(_valid([_steps(0.505, 5000)], [_swing(1.0, 5050.0)]))
+    assert long.apart == ()
+    assert outline(long.definition).duration_s > 90  # once about
+
+
+def test_what_is_always_at_the_same_phases_of_a_motion_is_cut_short() -> None:
+    sine = SINE | {"frequency_hz": 50.0, "duration_s": 3600.0}
+    for block in (_steps(0.5, 5000), sine):
+        found = shorten(_valid([block], [_swing(1.0, 5000.0)]))
+        assert found.apart == ()
+        assert outline(found.definition).duration_s < 10
+
+
+def test_a_phase_that_cannot_be_predicted_is_told() -> None:
+    sine = SINE | {"frequency_hz": 4.00001, "duration_s": 36000.0}
+    swing = _swing(4.0, 36000.0) | {"amplitude_m": 0.002}
+    assert shorten(_valid([sine], [swing])).apart == ((0, 0),)
+
+
+def test_what_comes_after_a_cut_meets_the_motion_at_the_phase_that_it_had() -> None:
+    blocks = [SINE | {"frequency_hz": 10.0, "duration_s": 3600.0}, _steps(0.5, 1)]
+    found = shorten(_valid(blocks, [_swing(0.23, 4000.0)]))
+    whole = outline(_valid(blocks)).blocks[1].start_s * 0.23
+    kept = outline(found.definition).blocks[1].start_s * 0.23
+    apart = abs((whole - kept + 0.5) % 1.0 - 0.5)
+    assert apart < 0.07 or found.apart != ()
+
+
 _SINES = st.builds(
     lambda amplitude, hz, seconds, mean: {
         "kind": "harmonic",
