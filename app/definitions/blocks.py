@@ -14,11 +14,11 @@ from app.definitions.quantities import (
     DurationS,
     ForceN,
     FrequencyHz,
-    Number,
     OctavesS,
     PhaseDeg,
     RateNS,
     RiseS,
+    Sample,
     SweptHz,
     TaperCycles,
     Times,
@@ -138,7 +138,7 @@ class Layers(Document):
 class TimeHistory(TimeCourse):
     """Forces sampled before, from a file or from the test itself, times `gain`."""
 
-    samples_n: tuple[Number, ...] | None = Field(
+    samples_n: tuple[Sample, ...] | None = Field(
         default=None, min_length=2, max_length=RIG.sample_limit
     )
 

@@ -12,11 +12,11 @@ from app.definitions.quantities import (
     Cycles,
     DurationS,
     FrequencyHz,
-    Number,
     PhaseDeg,
     PositionM,
     RateMS,
     RiseS,
+    Sample,
     TaperCycles,
 )
 from app.documents.fields import Document
@@ -79,7 +79,7 @@ class MotionHarmonic(Document):
 class MotionHistory(TimeCourse):
     """Displacements sampled before, from a file or from the test itself, times `gain`."""
 
-    samples_m: tuple[Number, ...] | None = Field(
+    samples_m: tuple[Sample, ...] | None = Field(
         default=None, min_length=2, max_length=RIG.sample_limit
     )
 

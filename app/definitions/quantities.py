@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, Field, Strict
 
 from app.definitions.limits import RIG
+from app.histories.curve import LARGEST
 
 
 def _whole(value: Any) -> Any:
@@ -25,6 +26,7 @@ RateMS = Annotated[Number, Field(ge=RIG.velocity_floor_m_s, le=RIG.velocity_limi
 FrequencyHz = Annotated[Number, Field(gt=0, lt=RIG.frequency_limit_hz)]
 SampleRateHz = Annotated[Number, Field(gt=0, le=RIG.loop_rate_hz)]
 OctavesS = Annotated[Number, Field(ge=1e-6, le=100)]
+Sample = Annotated[Number, Field(ge=-LARGEST, le=LARGEST)]  # before its gain
 Gain = Annotated[Number, Field(ge=-1e9, le=1e9)]
 SweptHz = Annotated[Number, Field(ge=1e-6, lt=RIG.frequency_limit_hz)]
 DurationS = Annotated[Number, Field(gt=0, le=RIG.duration_limit_s)]

@@ -8,7 +8,8 @@ import numpy as np
 import pyarrow as pa
 from pyarrow import csv
 
-from app.histories.curve import Values
+from app.documents.units import say
+from app.histories.curve import LARGEST, Values
 from app.histories.layout import Layout, Unreadable
 
 BLOCK_BYTES = 8 << 20
@@ -63,7 +64,7 @@ def _quickly(block: bytes, layout: Layout) -> tuple[Values | None, Values] | Non
     except pa.ArrowInvalid:
         return None
     columns = [np.asarray(table.column(str(i)), np.float64) for i in wanted]
-    if not all(np.isfinite(column).all() for column in columns):
+    if not all((np.abs(column) <= LARGEST).all() for column in columns):
         return None
     return (None if layout.time is None else columns[0]), columns[-1]
 
@@ -88,6 +89,8 @@ def _number(cells: list[str], column: int, layout: Layout, line: int) -> float:
     if value is None:
         what = f"'{cells[column][:40]}' is no number" if cells[column] else "a value is missing"
         raise Unreadable(f"{what} (column {column + 1})", line)
+    if abs(value) > LARGEST:
+        raise Unreadable(f"{say(value)} is too large (column {column + 1})", line)
     return value
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 CHUNK = 1 << 16
+LARGEST = 1e15  # N or m: the squares of what is larger may be no numbers any more
 
 Values = npt.NDArray[np.float64]
 

@@ -184,6 +184,8 @@ HISTORIES = [
         "needs at least 2 entries"),
     Bad(with_blocks(history(samples_n=[0, NAN, 1])), "blocks[0].samples_n[1]", "nan", None, "N",
         "must be finite"),
+    Bad(with_blocks(history(samples_n=[0, 1e160])), "blocks[0].samples_n[1]", 1e160, 1e15, "N",
+        "1e+160 N must be at most"),
     Bad(with_blocks(repeat(2, history(gain=1e10))), "blocks[0].blocks[0].gain", 1e10, 1e9, None,
         "must be at most"),
     Bad(moving_history(samples_m=[0, 0.04], rate_hz=1), "motion[0].samples_m", 0.04, 0.03, "m",

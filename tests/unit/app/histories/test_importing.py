@@ -82,6 +82,8 @@ def test_lengths_become_metres(tmp_path: Path) -> None:
         ("t,f\n0,1\n0.1\n", {}, 3, "has 1 of 2 columns"),
         ("t,f\n0,1\n0.1,nan\n", {}, 3, "'nan' is no number"),
         ("t,f\n0,1\n0.1,1e999\n", {}, 3, "'1e999' is no number"),
+        ("t,f\n0,1\n0.1,-1e160\n", {}, 3, "-1e+160 is too large (column 2)"),
+        ("t,f\n0,1\n1e200,1\n", {}, 3, "1e+200 is too large (column 1)"),
         ("t,f\n0,1\n0.1,2\n0.1,3\n", {}, 4, "0.1 s does not come after 0.1 s"),
         ("t,f\n0,1\n\n0.1,2\n0.05,3\n", {}, 5, "0.05 s does not come after 0.1 s"),
         ("t,f\n0,1\n1,2\n2,3\n3,4\n30,5\n", {}, 5, "a gap of 27 s follows"),
