@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from app.link.events import EventReader, LoopEvent
 from app.link.life import Life
-from app.recording.clerk import Clerk
+from app.recording.clerk import Clerk, OpenRun
+from app.recording.extent import extent_of
 from app.recording.outcome import LOOP_ENDED, Outcome
 from app.recording.run_file import RunFile
 from rtcore.supervise import RUN_TAIL_S
@@ -42,15 +43,29 @@ class Tape:
         """Go on with the runs that an earlier app left open, where in the ring they go on."""
         starts = [self._new_from_tick]
         for run in self._clerk.open_runs(self._life.name):
-            if run.first_tick is None:
+            first_tick = self._first_tick(run)
+            if first_tick is None:
                 self._unseen.add(run.id)
                 starts.append(0)
                 continue
-            self._leave(run.first_tick)
-            self.current = RunFile.open(run.id, self._runs_dir, run.first_tick)
+            self._leave(first_tick)
+            self.current = RunFile.open(run.id, self._runs_dir, first_tick)
             starts.append(self.current.next_tick)
         self._filed_to = min(starts) - 1
         self._reader.position = self._life.position_of(min(starts))
+
+    def _first_tick(self, run: OpenRun) -> int | None:
+        """Where a run began, by the book or by its samples; None where it is not known whether it did.
+
+        The samples come first: of a run that began while the clerk was busy the book knows nothing yet.
+        """
+        if run.first_tick is not None:
+            return run.first_tick
+        extent = extent_of(self._runs_dir / str(run.id))
+        if extent.ticks == 0:
+            return None
+        self._clerk.began(run.id, extent.first_tick)
+        return extent.first_tick
 
     def drain(self) -> None:
         """Read and file everything that has been published."""

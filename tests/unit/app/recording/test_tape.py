@@ -150,6 +150,29 @@ def test_a_start_that_the_killed_app_never_saw_answered_is_recorded(
     assert book.ends[7][1].outcome is Outcome.COMPLETED
 
 
+def test_a_run_whose_beginning_was_not_written_down_yet_loses_nothing(
+    loop: WrittenBlock, book: PaperBook, tmp_path: Path
+) -> None:
+    desk = Desk(loop, tmp_path, book)
+    book.enter(7)
+    loop.begin(7)
+    loop.ticks(100, run=7)
+    desk.tape.drain()  # the clerk is busy: with the run before, or with a database that is locked
+    desk.kill()
+    loop.trip(APP_SILENCE, 0.5, 0.5)
+    loop.go(Mode.TRIPPED)
+    loop.ticks(TAIL_TICKS, run=7)
+    loop.ticks(LONGER_THAN_THE_RING)
+    assert book.open[7].first_tick is None
+    after = Desk(loop, tmp_path, book)
+    after.drain()
+    after.end_unseen()
+    recorded, ending = book.ends[7]
+    assert ending.outcome is Outcome.TRIPPED
+    assert (recorded.first_tick, recorded.ticks) == (0, 100)
+    assert len(recorded_ticks(tmp_path, 7)) == 100
+
+
 def test_a_run_that_the_loop_never_began_has_failed(
     loop: WrittenBlock, book: PaperBook, tmp_path: Path
 ) -> None:
