@@ -98,12 +98,17 @@ def test_samples_are_the_extremes_of_every_stretch(ready: ConsoleProcess) -> Non
     force = table["force_n"].to_numpy().astype(np.float64)
     asked = {"channels": "force_n,mode", "points": "100"}
     samples = ready.http.get(f"/runs/{run_id}/samples", params=asked).json()
-    width = -(-len(force) // 100)
-    stretches = [force[i : i + width] for i in range(0, len(force), width)]
     assert samples["decimated"]
+    assert 50 < len(samples["time_s"]) <= 100
+    starts = np.round(np.array(samples["time_s"]) / 250e-6).astype(int)
+    assert starts[0] == 0
+    widths = np.unique(np.diff(starts[1:]))
+    assert len(widths) == 1  # all of one width but for the two ends, at multiples of it
+    assert not ((table["tick"][0].as_py() + starts[1:]) % widths[0]).any()
+    stretches = np.split(force, starts[1:])  # no sample is left out and none counts twice
     assert samples["channels"]["force_n"]["max"] == [stretch.max() for stretch in stretches]
     assert samples["channels"]["force_n"]["min"] == [stretch.min() for stretch in stretches]
-    assert samples["time_s"] == pytest.approx(np.arange(len(stretches)) * width * 250e-6)
+    assert max(map(len, stretches)) == widths[0]
 
     asked |= {"from_s": "0.5", "to_s": "0.51"}
     samples = ready.http.get(f"/runs/{run_id}/samples", params=asked).json()
@@ -173,7 +178,7 @@ def test_the_stop_needs_no_database(ready: ConsoleProcess) -> None:
         held.execute("BEGIN EXCLUSIVE")
         began = time.monotonic()
         assert ready.command("stop").is_success
-        assert time.monotonic() - began < 5.0  # the database would answer after 15 s
+        assert time.monotonic() - began < 14.0  # the database would say no after 15 s
         held.execute("ROLLBACK")
     held.close()
     assert ready.ended_run(run_id)["missing_ticks"] == 0
