@@ -1,7 +1,8 @@
-"""The clerk: a thread that writes down what the recorder found; the drain never waits for it.
+"""The clerk: writes down what the recorder found, in threads of its own; the drain never waits for it.
 
-Jobs are done in order. One that fails because the database or the disk does not answer is tried
-again; what is on disk stays as it is until then.
+What was seen of runs is written down at once, in order; filing and measuring a run that is over may take
+minutes, so that has a thread to itself. A job that fails because the database or the disk does not answer
+is tried again; what is on disk stays as it is until then.
 """
 
 import logging
@@ -55,25 +56,31 @@ Job = Callable[[], None]
 
 
 class Clerk:
-    """Does the recorder's paperwork in a thread of its own."""
+    """Does the recorder's paperwork."""
 
     def __init__(self, runs_dir: Path, book: RunBook) -> None:
         self._runs_dir = runs_dir
         self._book = book
         self._jobs: SimpleQueue[Job | None] = SimpleQueue()
+        self._filing: SimpleQueue[Job | None] = SimpleQueue()  # what may take minutes
         self._ending: set[int] = set()  # runs whose end is on its way into the book
         self._stopping = Event()
-        self._thread = Thread(target=self._work, name="clerk", daemon=True)
+        self._threads = [
+            Thread(target=self._work, args=(queue,), name=name, daemon=True)
+            for queue, name in ((self._jobs, "clerk"), (self._filing, "clerk-filing"))
+        ]
 
     def start(self) -> None:
         """Begin to work."""
-        self._thread.start()
+        for thread in self._threads:
+            thread.start()
 
     def stop(self) -> None:
         """Finish what is on the desk, then end. What fails now is done at the next start."""
         self._stopping.set()
-        self._jobs.put(None)
-        self._thread.join()
+        for queue, thread in zip((self._jobs, self._filing), self._threads, strict=True):
+            queue.put(None)  # what is to be filed is known once the first has done
+            thread.join()
 
     def open_runs(self, loop_life: str | None) -> list[OpenRun]:
         """The runs of this life of the loop that have no end yet; None: of every life."""
@@ -91,7 +98,8 @@ class Clerk:
     def ended(self, run_id: int, recorded: Recorded, ending: Ending) -> None:
         """A run is over: make its file, write its end down, remove what the file was made from."""
         self._ending.add(run_id)
-        self._jobs.put(lambda: self._end(run_id, recorded, ending))
+        # In turn behind all that is to be said of the run, but before nobody: another may begin.
+        self._jobs.put(lambda: self._filing.put(lambda: self._end(run_id, recorded, ending)))
 
     def never_began(self, run_id: int) -> None:
         """The loop did not begin a run, and will not any more."""
@@ -109,13 +117,14 @@ class Clerk:
 
     def work_off(self) -> None:
         """Do what is on the desk now, once, in the thread that calls."""
-        while not self._jobs.empty():
-            job = self._jobs.get()
-            if job is not None:
-                self._done(job)
+        for queue in (self._jobs, self._filing):
+            while not queue.empty():
+                job = queue.get()
+                if job is not None:
+                    self._done(job)
 
-    def _work(self) -> None:
-        while (job := self._jobs.get()) is not None:
+    def _work(self, queue: SimpleQueue[Job | None]) -> None:
+        while (job := queue.get()) is not None:
             attempts = 0
             while not self._done(job) and attempts < ATTEMPTS_AT_THE_END:
                 attempts += self._stopping.is_set()
