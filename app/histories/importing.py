@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.lib.format import open_memmap
+from numpy.lib import format as npy
 from pydantic import BaseModel, ConfigDict
 
 from app.histories.columns import decoded, line_of, read_columns
@@ -98,9 +98,9 @@ def _raw(source: Path, folder: Path, layout: Layout) -> tuple[Values | None, Val
     times, values = folder / "times.raw", folder / "values.raw"
     with times.open("wb") as time_file, values.open("wb") as value_file:
         for time_part, value_part in read_columns(source, layout):
-            value_part.astype("<f8").tofile(value_file)
+            value_file.write(np.ascontiguousarray(value_part, "<f8").data)
             if time_part is not None:
-                time_part.astype("<f8").tofile(time_file)
+                time_file.write(np.ascontiguousarray(time_part, "<f8").data)
     return (None if layout.time is None else _mapped(times)), _mapped(values)
 
 
@@ -121,12 +121,16 @@ def _rate(
 
 
 def _written(path: Path, count: int, parts: Iterable[Values]) -> Values:
-    """So many samples, part after part, as an .npy file, which is mapped."""
-    samples: Values = open_memmap(path, "w+", np.float64, (count,))
-    place = 0
-    for part in parts:
-        samples[place : place + len(part)] = part
-        place += len(part)
+    """So many samples, part after part, as an .npy file, which is mapped. Raises `OSError`.
+
+    They are written and not mapped: where a mapped file finds no room, the process is ended by a signal.
+    """
+    head = {"descr": "<f8", "fortran_order": False, "shape": (count,)}
+    with path.open("wb") as file:
+        npy.write_array_header_1_0(file, head)
+        for part in parts:
+            file.write(np.ascontiguousarray(part, "<f8").data)
+    samples: Values = np.load(path, mmap_mode="r")
     return samples
 
 

@@ -154,3 +154,16 @@ def test_a_backup_of_a_live_run_is_a_console_of_its_own(
         other.clean_up()
     assert console.command("stop").is_success
     is_whole(console, console.ended_run(second))
+
+
+def test_a_time_history_that_finds_no_room_is_refused_and_ends_nobody(small_disk: Path) -> None:
+    """A mapped file that the disk has no room for would end the console by a signal."""
+    code = f"""
+from pathlib import Path
+from app.histories.store import import_history
+text = [b"t,F\\n0,0\\n2000,1\\n"]
+print(import_history(text, "long.csv", Path({str(small_disk)!r}), rate_hz=1e5).code.value)
+"""
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (ended.returncode, ended.stdout.strip()) == (0, "no_space"), ended.stderr
+    assert [path for path in small_disk.iterdir() if path.name != "lost+found"] == []
