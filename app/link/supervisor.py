@@ -75,13 +75,29 @@ class Supervisor:
 
     def _run(self) -> None:
         while not self._ended.is_set():
-            if self.life is None or self.life.ended:
+            life = self.life
+            if life is not None and life.alive:
+                if not life.configured and _may_be_configured(life):
+                    life.configured = self._configure(life)
+            elif loop_is_running(self.block):
+                self._look_for_another(life)
+            elif life is None or life.ended:
                 self._start_loop()
-            elif not self.life.alive and not loop_is_running(self.block):
-                self._bury(self.life)
-            elif not self.life.configured and _may_be_configured(self.life):
-                self.life.configured = self._configure(self.life)
+            else:
+                self._bury(life)
             self._ended.wait(_WATCH_S)
+
+    def _look_for_another(self, life: Life | None) -> None:
+        """A loop that was still starting when its console was killed lays its own block in the old one's place."""
+        try:
+            found = Life(attach_block(self.block))
+        except BlockError:
+            return
+        if found.beaten and (life is None or found.name != life.name):
+            _log.info("the loop process %d, begun by an earlier start, runs", found.pid)
+            if life is not None:
+                life.ended = True  # nobody writes its block any more
+            self._adopt(found)
 
     def _bury(self, life: Life) -> None:
         """Nobody holds the lock any more: what is in the block is all there will be."""
@@ -154,12 +170,16 @@ def _may_be_configured(life: Life) -> bool:
 
 
 def left_over(path: Path) -> Life | None:
-    """What an earlier start of the app left behind: a running loop, or the block of a dead one."""
+    """What an earlier start of the app left behind: a running loop, or the block of a dead one.
+
+    None where there is nothing, or a loop that has no block yet. Raises `BlockError` where a loop of
+    another version runs.
+    """
     running = loop_is_running(path)
     try:
         return Life(attach_block(path), ended=not running)
     except BlockError as error:
-        if running:
+        if running and path.exists():
             raise
         if path.exists():
             _log.warning("%s. No loop runs on it: it is replaced", error)

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import time
 from pathlib import Path
 from typing import Any
 
@@ -9,10 +10,16 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from app.link.life import Life
 from app.link.process import LoopCommand
 from app.link.supervisor import Supervisor
 from rtcore.memory.rings import telemetry_reader
-from rtcore.memory.segment import attach_block, create_block, loop_is_running
+from rtcore.memory.segment import (
+    attach_block,
+    create_block,
+    lock_single_loop,
+    loop_is_running,
+)
 from rtcore.modes import Mode, is_pressurised
 from tests.console_process import ConsoleProcess, wait_for
 
@@ -226,3 +233,42 @@ def test_a_loop_that_cannot_start_is_tried_again_and_told(tmp_path: Path) -> Non
         supervisor.stop()
         supervisor.reap()
     assert "unrecognized arguments" in command.last_words()
+
+
+def lives_of(block: Path, log: Path) -> tuple[Supervisor, list[Life]]:
+    """A supervisor that may start no loop of its own, and the lives that it is told of."""
+    seen: list[Life] = []
+    log.touch()
+    command = LoopCommand(block, log, ("--block", str(block), "--nonsense"))
+    return Supervisor(command, seen.append, lambda life: True), seen
+
+
+def begin_to_beat(block: Path, started_ns: int) -> None:
+    """What a loop does once it is ready: a block of its own in the old one's place, and beats."""
+    fields = create_block(block, 250_000, seconds=0.1).fields
+    fields["loop_started_ns"], fields["loop_pid"] = started_ns, os.getpid()
+    fields["loop_heartbeat_ns"] = time.monotonic_ns() + 10**12
+
+
+@pytest.mark.parametrize("has_old_block", [True, False])
+def test_a_loop_that_its_console_did_not_live_to_see_is_found(
+    tmp_path: Path, has_old_block: bool
+) -> None:
+    """The console is killed while its new loop still compiles; the next console waits for that loop."""
+    block = tmp_path / "loop.block"
+    if has_old_block:
+        create_block(block, 250_000, seconds=0.1).fields["loop_pid"] = 1
+    with lock_single_loop(block):
+        supervisor, seen = lives_of(block, tmp_path / "loop.log")
+        supervisor.start()
+        try:
+            assert len(seen) == has_old_block
+            begin_to_beat(block, started_ns=77)
+            wait_for(lambda: seen and seen[-1].name == f"77-{os.getpid()}", "the loop", 20)
+            assert supervisor.life is seen[-1]
+            assert seen[-1].alive
+            assert all(life.ended for life in seen[:-1])
+            assert (tmp_path / "loop.log").read_text() == ""
+        finally:
+            supervisor.stop()
+            supervisor.reap()
