@@ -77,7 +77,7 @@ class Ledger:
         result = self._measured(run_id, recorded, ending)
         with self._database.writing() as session:
             run = repository.to_change(session, run_id)
-            if run is None:
+            if run is None or _is_known_better(run, recorded):
                 return
             _close(run, recorded, ending)
             if result.trouble:
@@ -124,6 +124,11 @@ class Ledger:
                 return {"run_id": run_id}
             settings = {name: getattr(run, name) for name in _FROZEN}
             return {"run_id": run_id, "started_at": run.started_at.isoformat(), **settings}
+
+
+def _is_known_better(run: Run, recorded: Recorded) -> bool:
+    """Whether a run with samples is now said to have none: it was given up while it was being filed."""
+    return run.outcome is not None and run.ticks > 0 and recorded.ticks == 0
 
 
 def _close(run: Run, recorded: Recorded, ending: Ending) -> None:

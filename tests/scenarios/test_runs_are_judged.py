@@ -330,3 +330,15 @@ def test_the_tables_of_a_run_are_listed_and_served_as_text(
     assert unknown.detail == "Run 1 has no acquisition 4: its test asks for 4"
     for index in range(4):
         assert acquisition_path(lab.runs_dir / "1", index).exists()
+
+
+def test_a_run_that_is_in_the_book_is_not_given_up_afterwards(
+    tmp_path: Path, records: npt.NDArray[Any]
+) -> None:
+    """A start without an answer: the run began, and ended, before the clerk had come to say so."""
+    lab = _Lab(tmp_path, _data())
+    lab.finalise(records)
+    lab._clerk.never_began(lab.run_id)
+    lab._clerk.work_off()
+    run = lab.run()
+    assert (run.outcome, run.ticks, run.reason) == ("completed", len(records), None)
