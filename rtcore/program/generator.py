@@ -11,7 +11,15 @@ import math
 import numpy as np
 
 from rtcore.compiled import Record, kernel
-from rtcore.program.segments import MAX_DEPTH, MAX_KNOTS, MAX_SEGMENTS, Branch, Segment
+from rtcore.program.segments import MAX_DEPTH, MAX_SEGMENTS, Branch, Segment
+from rtcore.program.waves import (
+    between_knots,
+    fade,
+    has_phase,
+    interval,
+    phase_cycles,
+    sine_frequency_hz,
+)
 
 GENERATOR = np.dtype(
     [
@@ -53,13 +61,6 @@ GENERATOR = np.dtype(
 
 MOST_SEGMENTS_A_TICK = 64  # a table whose segments take no time cannot keep the tick
 _SEGMENT_MASK = MAX_SEGMENTS - 1
-_KNOT_MASK = MAX_KNOTS - 1
-
-
-@kernel
-def fade(ticks: int, of_ticks: int) -> float:
-    """Half a cosine from 1 at 0 to 0 at `of_ticks`."""
-    return 0.5 + 0.5 * math.cos(math.pi * ticks / of_ticks)
 
 
 @kernel
@@ -77,7 +78,7 @@ def start(g: Record, table: Record, value: float, period_s: float) -> None:
     g.knot = 0
     g.starved = 0
     rest(g, value)
-    _enter(g, table.segments[0], period_s)
+    enter(g, table.segments[0], period_s)
 
 
 @kernel
@@ -92,57 +93,7 @@ def rest(g: Record, value: float) -> None:
 
 
 @kernel
-def has_phase(kind: int) -> bool:
-    """Whether a segment is a sine: harmonic or sweep."""
-    return kind == Segment.HARMONIC or kind == Segment.SWEEP
-
-
-@kernel
-def _octave_share(g: Record, s: Record, tick: int) -> float:
-    """The exponent that a sweep's frequency has grown by."""
-    return math.log(s.frequency_to_hz / g.from_frequency_hz) * tick / g.ticks
-
-
-@kernel
-def _phase(g: Record, s: Record, tick: int, period_s: float) -> float:
-    """Phase (cycles) after so many ticks of a sine whose frequency moves, linearly or exponentially."""
-    t = tick * period_s
-    phase = g.from_phase + g.from_frequency_hz * t
-    if s.frequency_to_hz == g.from_frequency_hz or tick == 0:
-        return phase
-    if s.kind == Segment.SWEEP:
-        grown = _octave_share(g, s, tick)
-        return g.from_phase + g.from_frequency_hz * t * math.expm1(grown) / grown
-    return phase + 0.5 * (s.frequency_to_hz - g.from_frequency_hz) * t * tick / g.ticks
-
-
-@kernel
-def _frequency_hz(g: Record, s: Record, tick: int) -> float:
-    if s.kind == Segment.SWEEP:
-        return g.from_frequency_hz * math.exp(_octave_share(g, s, tick))
-    return g.from_frequency_hz + tick / g.ticks * (s.frequency_to_hz - g.from_frequency_hz)
-
-
-@kernel
-def _interval(g: Record, s: Record, tick: int, period_s: float) -> int:
-    """Between which two knots of the segment a tick lies: the number of the first."""
-    return min(math.floor(tick * period_s * s.rate_per_s + 1e-9), s.times - 2)
-
-
-@kernel
-def _between_knots(g: Record, s: Record, table: Record, tick: int, period_s: float) -> float:
-    """The cubic through two knots with their slopes (Hermite); the last knot is met exactly."""
-    i = _interval(g, s, tick, period_s)
-    first = g.first_knot + i
-    a, b = table.knots[first & _KNOT_MASK], table.knots[(first + 1) & _KNOT_MASK]
-    u = min(max(tick * period_s * s.rate_per_s - i, 0.0), 1.0)
-    v = 1.0 - u
-    ends = v * v * (1.0 + 2.0 * u) * a.value + u * u * (1.0 + 2.0 * v) * b.value
-    return ends + u * v * (v * a.slope - u * b.slope)
-
-
-@kernel
-def _enter(g: Record, s: Record, period_s: float) -> None:
+def enter(g: Record, s: Record, period_s: float) -> None:
     """Fix how the segment begins and how long it takes."""
     g.tick = 0
     g.ticks = s.ticks
@@ -175,8 +126,8 @@ def _evaluate(g: Record, s: Record, table: Record, tick: int, period_s: float) -
         blend = 1.0 - fade(tick, g.ticks)
         g.mean = g.from_mean + blend * (s.mean_to - g.from_mean)
         g.amplitude = g.from_amplitude + blend * (s.amplitude_to - g.from_amplitude)
-        g.frequency_hz = _frequency_hz(g, s, tick)
-        phase = _phase(g, s, tick, period_s)
+        g.frequency_hz = sine_frequency_hz(g, s, tick)
+        phase = phase_cycles(g, s, tick, period_s)
         g.value = g.mean + g.amplitude * math.sin(2.0 * math.pi * (phase - math.floor(phase)))
         return
     target = s.target
@@ -185,7 +136,7 @@ def _evaluate(g: Record, s: Record, table: Record, tick: int, period_s: float) -
     elif s.kind == Segment.LINEAR:
         rest(g, g.from_value + share * (target - g.from_value))
     elif s.kind == Segment.SAMPLES:
-        rest(g, _between_knots(g, s, table, tick, period_s))
+        rest(g, between_knots(g, s, table, tick, period_s))
         g.mean = g.value if math.isnan(s.mean_to) else s.mean_to
     else:
         blend = 1.0 - fade(tick, g.ticks) if g.ticks > 0 else 1.0
@@ -201,7 +152,7 @@ def _leave(g: Record, s: Record, table: Record, period_s: float) -> None:
         g.knot = g.first_knot + s.times
         g.mean = g.value  # a sine that continues from here begins where the samples end
     if has_phase(s.kind):
-        phase = _phase(g, s, g.ticks, period_s)
+        phase = phase_cycles(g, s, g.ticks, period_s)
         if s.counts != 0:
             g.cycles_before += math.floor(
                 phase - g.from_phase + 0.5 * g.frequency_hz * period_s + 1e-9
@@ -249,7 +200,7 @@ def _settle(g: Record, table: Record, period_s: float) -> None:
         else:
             _leave(g, s, table, period_s)
             g.segment += 1
-        _enter(g, table.segments[g.segment & _SEGMENT_MASK], period_s)
+        enter(g, table.segments[g.segment & _SEGMENT_MASK], period_s)
 
 
 @kernel
@@ -257,7 +208,7 @@ def _knots_are_there(g: Record, s: Record, tick: int, period_s: float) -> bool:
     """Whether a tick of a segment has its knots; marks the first that is still needed."""
     if s.kind != Segment.SAMPLES:
         return True
-    g.knot = g.first_knot + _interval(g, s, tick, period_s)
+    g.knot = g.first_knot + interval(g, s, tick, period_s)
     return g.knot + 1 < g.knots_ready
 
 
@@ -301,7 +252,7 @@ def generate(
         g.starved = 1
     g.cycle = g.cycles_before
     if has_phase(s.kind) and s.counts != 0:
-        turned = _phase(g, s, g.tick, period_s) - g.from_phase
+        turned = phase_cycles(g, s, g.tick, period_s) - g.from_phase
         g.cycle += math.floor(turned + 1e-9)
     if g.hold_ticks > 0:
         g.value = g.mean + (g.value - g.mean) * fade(g.hold_ticks, hold_fade_ticks)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from rtcore.compiled import Record, address_of, carray, entry, kernel, pointer
-from rtcore.program.generator import GENERATOR, MOST_SEGMENTS_A_TICK, _enter, generate, start
+from rtcore.program.generator import GENERATOR, MOST_SEGMENTS_A_TICK, enter, generate, start
 from rtcore.program.segments import TABLE
 from rtcore.program.stream import Course, TableWriter
 
@@ -54,7 +54,7 @@ def _begin(g_address: int, table_address: int, start_address: int, period_s: flo
     g.amplitude = at.amplitude
     g.frequency_hz = at.frequency_hz
     g.from_phase = at.phase_cycles
-    _enter(g, table.segments[0], period_s)
+    enter(g, table.segments[0], period_s)
     g.tick = at.tick
     g.first_knot = -at.knots_before
 
