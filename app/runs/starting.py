@@ -100,6 +100,9 @@ class Starter:
 
     def _begin(self, life: Life, entry: Entry, predicted: Predicted) -> Run | Refusal:
         run, fresh = enter(self._database, life, self._frozen, entry)
+        self._unanswered.add(
+            run.id
+        )  # until it is known what became of it, whatever fails meanwhile
         folder = self._runs_dir / str(run.id)
         try:
             if predicted.through is not None:
@@ -109,19 +112,20 @@ class Starter:
         answer = self._link.ask(Opcode.START, run.id)
         if isinstance(answer, Refusal):
             return self._withdraw(run, fresh, answer)
+        self._unanswered.discard(run.id)
         self._plans.remember(run.id, run.test_name, dict(entry.plan))
         return run
 
     def _withdraw(self, run: Run, fresh: list[int], refusal: Refusal) -> Refusal:
         """The loop did not start it: no run. Where it did not answer, it may have: the row stays."""
         if refusal.code is Code.LOOP_SILENT:
-            self._unanswered.add(run.id)
             return refusal
         remove_series(self._runs_dir / str(run.id))
         with self._database.writing() as session:
             session.delete(session.merge(run))
             session.flush()
             repository.forget(session, fresh)
+        self._unanswered.discard(run.id)
         return refusal
 
     def _settle(self) -> None:

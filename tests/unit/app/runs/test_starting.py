@@ -1,0 +1,130 @@
+"""Whatever fails on the way to a start, no run stays under way that the loop has not begun."""
+
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from sqlalchemy.exc import OperationalError
+
+from app.catalogue.service import StoredTest
+from app.db import Database
+from app.definitions.definition import Definition
+from app.definitions.reading import definition_from
+from app.errors import Code, Refusal
+from app.prediction.predicting import Predicted
+from app.prediction.schemas import Peaks, Prediction, PredictionVerdict, Valve
+from app.runs import repository
+from app.runs.entering import Frozen
+from app.runs.models import Run
+from app.runs.plans import Plans
+from app.runs.schemas import RunStart
+from app.runs.starting import Needs, Starter
+from rtcore.codes import Opcode
+
+WRONG_MODE = Refusal(Code.WRONG_MODE, "Cannot start: the rig is not in a state for that")
+
+
+def _stored() -> StoredTest:
+    blocks = [{"kind": "hold", "duration_s": 0.1}]
+    found = definition_from({"schema": 1, "name": "hold", "blocks": blocks})
+    assert isinstance(found, Definition)
+    return StoredTest("hold", 1, "hold", found)
+
+
+def _predicted() -> Predicted:
+    prediction = Prediction(
+        verdict=PredictionVerdict.CLEAR,
+        reasons=[],
+        duration_s=0.1,
+        predicted_s=0.1,
+        shortened=[],
+        margins=[],
+        valve=Valve(peak=0.0, saturation_share=0.0, longest_saturation_s=0.0),
+        peaks=Peaks(**dict.fromkeys(Peaks.model_fields)),
+        blocks=[],
+        criteria=[],
+        outcome="completed",
+        reason=None,
+        computed_in_s=0.1,
+        speed=1.0,
+        seed=1,
+        key="",
+    )
+    return Predicted(prediction, None, 0)
+
+
+class Lab:
+    """A starter over a book, with a loop that refuses to start, and a disk that can be taken away."""
+
+    def __init__(self, folder: Path) -> None:
+        self.database = Database(f"sqlite:///{folder / 'book.db'}")
+        self.database.upgrade()
+        self.given_up: list[int] = []
+        self.answers: list[Any] = []
+        self.locked = False
+        life = SimpleNamespace(name="1-42", period_ns=250_000, conditions=list)
+        stored, predicted = _stored(), _predicted()
+        link: Any = SimpleNamespace(life=life, load_program=lambda p: None, ask=self._ask)
+        recorder: Any = SimpleNamespace(following=life)
+        fakes: Any = SimpleNamespace(
+            definition_of=lambda test_id, revision: stored,
+            of=lambda definition, wait_s: predicted,
+            refusal_for=lambda duration_s: None,
+        )
+        needs = Needs(fakes, fakes, fakes, lambda: None, self.given_up.append)
+        book: Any = SimpleNamespace(reading=self.database.reading, writing=self._writing)
+        frozen = Frozen(controller={}, interlocks={}, rig={})
+        self.starter = Starter(book, folder, link, recorder, frozen, Plans(), needs)
+
+    def open_runs(self) -> list[int]:
+        with self.database.reading() as session:
+            return [run.id for run in repository.without_outcome(session)]
+
+    def start(self) -> Run | Refusal:
+        return self.starter.start(RunStart(test_id="hold"))
+
+    def _ask(self, opcode: Opcode, argument: int) -> Any:
+        assert opcode is Opcode.START
+        return self.answers.pop(0)()
+
+    @contextmanager
+    def _writing(self) -> Any:
+        if self.locked:
+            raise OperationalError("BEGIN IMMEDIATE", None, Exception("database is locked"))
+        with self.database.writing() as session:
+            yield session
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Lab:
+    return Lab(tmp_path)
+
+
+def test_a_start_that_the_loop_refuses_leaves_nothing(lab: Lab) -> None:
+    lab.answers = [lambda: WRONG_MODE]
+    assert lab.start() is WRONG_MODE
+    assert lab.open_runs() == []
+
+
+def test_a_start_that_cannot_be_withdrawn_is_given_up_by_the_next(lab: Lab) -> None:
+    def refuse_and_lock() -> Refusal:
+        lab.locked = True
+        return WRONG_MODE
+
+    lab.answers = [refuse_and_lock, lambda: WRONG_MODE]
+    with pytest.raises(OperationalError):
+        lab.start()
+    (left,) = lab.open_runs()
+    lab.locked = False
+    lab.start()
+    assert lab.given_up == [left]
+
+
+def test_a_run_that_the_loop_has_begun_is_not_given_up_by_the_next(lab: Lab) -> None:
+    lab.answers = [lambda: object(), lambda: WRONG_MODE]
+    run = lab.start()
+    assert isinstance(run, Run)
+    lab.start()
+    assert lab.given_up == []
