@@ -28,8 +28,8 @@ run: setup
 test: lint
 	$(NPM) run --silent test
 	NUMBA_BOUNDSCHECK=1 $(PY) -m pytest -q $(BOUNDS_CHECKED)
-	FORCERIG_CHROMIUM="$$($(PY) tools/ensure_chromium.py)" \
-		FORCERIG_POSTGRES="$$($(PY) tools/ensure_postgres.py)" $(PY) -m pytest $(ARGS)
+	FORCERIG_CHROMIUM="$$($(PY) -m tools.ensure_chromium)" \
+		FORCERIG_POSTGRES="$$($(PY) -m tools.ensure_postgres)" $(PY) -m pytest $(ARGS)
 
 check: lint unit
 
