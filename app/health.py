@@ -4,9 +4,10 @@ from fastapi import APIRouter, Response
 from pydantic import BaseModel
 
 from app.dependencies import ThisConsole
+from app.problems import PROBLEMS
 from app.settings import VERSION
 
-router = APIRouter(tags=["health"])
+router = APIRouter(tags=["health"], responses=PROBLEMS)
 
 
 class Health(BaseModel):
@@ -18,7 +19,11 @@ class Health(BaseModel):
     version: str
 
 
-@router.get("/healthz", operation_id="getHealth")
+@router.get(
+    "/healthz",
+    operation_id="getHealth",
+    responses={503: {"model": Health, "description": "Something is not well"}},
+)
 def get_health(this: ThisConsole, response: Response) -> Health:
     """200 where all is well, 503 otherwise."""
     life, trouble = this.link.life, this.recorder.state().trouble

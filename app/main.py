@@ -16,6 +16,7 @@ from fastapi.responses import HTMLResponse
 from app.body_limit import BodyLimit
 from app.catalogue.router import router as tests_router
 from app.catalogue.texts_router import router as texts_router
+from app.described import Described
 from app.docs_page import docs_page
 from app.errors import Refusal
 from app.health import router as health_router
@@ -67,7 +68,7 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         await console.broadcaster.stop()
         await run_sync(console.close)
 
-    app = FastAPI(
+    app = Described(
         title="forcerig",
         version=VERSION,
         description="Operator console of a servo-hydraulic force-control test rig. All values SI.",

@@ -5,6 +5,7 @@ from typing import Annotated, Any, NamedTuple
 
 from fastapi import APIRouter, Depends, Path, Query, Request, Response
 from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
 from pydantic import ValidationError
 
 from app.catalogue import texts
@@ -26,6 +27,7 @@ from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/tests", tags=["tests"], responses=PROBLEMS)
 TestId = Annotated[str, Path(max_length=LONGEST_ID)]
+LONGEST_IDS = 20_000  # thrice that where all is escaped: no more fits into the head of a request
 _YAML = "application/yaml"
 _ZIP = "application/zip"
 
@@ -80,18 +82,29 @@ def import_tests(sent: Annotated[_Sent, Depends(_sent)], library: LibraryService
     return granted(library.enter(granted(_files_in(sent))))
 
 
-@router.get("/library.zip", operation_id="exportTests", response_class=Response)
+class _Zip(Response):
+    media_type = _ZIP
+
+
+@router.get("/library.zip", operation_id="exportTests", response_class=_Zip)
 def export_tests(
     library: LibraryService,
-    ids: Annotated[str | None, Query(max_length=50_000, description="with commas between")] = None,
+    ids: Annotated[
+        str | None, Query(max_length=LONGEST_IDS, description="with commas between")
+    ] = None,
     tag: Annotated[str | None, Query(max_length=50)] = None,
 ) -> Response:
     """A zip of these tests, or of all that are not archived: a YAML each, and an index with tags."""
     asked = None if ids is None else [part for part in ids.split(",") if part]
-    return _download(granted(library.export(asked, tag)), _ZIP, "forcerig-tests.zip")
+    return _Zip(granted(library.export(asked, tag)), headers=_named("forcerig-tests.zip"))
 
 
-@router.get("/{test_id}/definition.yaml", operation_id="getYaml", response_class=Response)
+@router.get(
+    "/{test_id}/definition.yaml",
+    operation_id="getYaml",
+    response_class=Response,
+    responses={200: {"content": {_YAML: {"schema": {"type": "object"}}}}},
+)
 def get_yaml(
     test_id: TestId,
     catalogue: CatalogueService,
@@ -99,10 +112,10 @@ def get_yaml(
 ) -> Response:
     """The test as it was written, as a file."""
     found = granted(catalogue.texts(test_id, revision))
-    return _download(found.yaml.encode(), _YAML, f"{test_id}.yaml")
+    return Response(found.yaml, headers=_named(f"{test_id}.yaml"), media_type=_YAML)
 
 
-@router.get("/{test_id}/definition.json", operation_id="getJson", response_class=Response)
+@router.get("/{test_id}/definition.json", operation_id="getJson", response_class=JSONResponse)
 def get_json(
     test_id: TestId,
     catalogue: CatalogueService,
@@ -111,7 +124,7 @@ def get_json(
     """The test as plain data, as a file."""
     found = granted(catalogue.texts(test_id, revision))
     text = json.dumps(found.definition, indent=2, ensure_ascii=False)
-    return _download(text.encode(), "application/json", f"{test_id}.json")
+    return Response(text, headers=_named(f"{test_id}.json"), media_type="application/json")
 
 
 def _files_in(sent: _Sent) -> dict[str, str] | Refusal:
@@ -132,6 +145,5 @@ def _files_in(sent: _Sent) -> dict[str, str] | Refusal:
     return {"": text}
 
 
-def _download(content: bytes, media_type: str, name: str) -> Response:
-    headers = {"Content-Disposition": f'attachment; filename="{name}"'}
-    return Response(content, media_type=media_type, headers=headers)
+def _named(name: str) -> dict[str, str]:
+    return {"Content-Disposition": f'attachment; filename="{name}"'}

@@ -27,10 +27,14 @@ def list_run_acquisitions(run_id: RunId, results: ResultsService) -> list[Acquis
     return granted(results.acquisitions(run_id))
 
 
+class _Csv(StreamingResponse):
+    media_type = "text/csv"
+
+
 @router.get(
     "/{run_id}/acquisitions/{index}.csv",
     operation_id="getRunAcquisitionCsv",
-    response_class=StreamingResponse,
+    response_class=_Csv,
 )
 def get_run_acquisition_csv(
     run_id: RunId, index: Index, results: ResultsService
@@ -39,7 +43,7 @@ def get_run_acquisition_csv(
     lines = granted(results.as_csv(run_id, index))
     name = f"forcerig-run-{run_id}-acquisition-{index}.csv"
     headers = {"Content-Disposition": f'attachment; filename="{name}"'}
-    return StreamingResponse(lines, media_type="text/csv", headers=headers)
+    return _Csv(lines, headers=headers)
 
 
 @router.get(

@@ -82,9 +82,13 @@ def list_run_events(run_id: RunId, runs: RunsService) -> RunEvents:
     return granted(runs.events(run_id))
 
 
-@router.get("/{run_id}/data.parquet", operation_id="getRunParquet", response_class=FileResponse)
+class _Parquet(FileResponse):
+    media_type = "application/vnd.apache.parquet"
+
+
+@router.get("/{run_id}/data.parquet", operation_id="getRunParquet", response_class=_Parquet)
 def get_run_parquet(run_id: RunId, runs: RunsService) -> FileResponse:
     """Every tick and every channel, with the frozen definition and settings in its metadata."""
     path = granted(runs.parquet(run_id))
     name = f"forcerig-run-{run_id}.parquet"
-    return FileResponse(path, media_type="application/vnd.apache.parquet", filename=name)
+    return _Parquet(path, media_type=_Parquet.media_type, filename=name)
