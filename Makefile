@@ -19,6 +19,13 @@ WEB_SOURCES := $(wildcard web/*.ts web/*.js web/*.json web/index.html) \
 BOUNDS_CHECKED := $(addprefix tests/unit/rtcore/test_,tick.py trips.py adoption.py generator.py memory.py interlocks.py \
 	stream.py sweeps_and_samples.py)
 
+# The whole interface once more on a server, where there is one; not where only some tests are asked for.
+define ON_POSTGRESQL
+@folder="$$($(PY) -m tools.ensure_postgres 2>/dev/null)"; \
+	if [ -n "$$folder" ]; then FORCERIG_POSTGRES="$$folder" $(PY) -m pytest -q tests/api --database postgresql; \
+	else echo "Not tested, as there is no server here: the interface on PostgreSQL"; fi
+endef
+
 .PHONY: run test check lint unit bench gen check-gen lock clean setup
 .DELETE_ON_ERROR:
 
@@ -30,6 +37,7 @@ test: lint
 	NUMBA_BOUNDSCHECK=1 $(PY) -m pytest -q $(BOUNDS_CHECKED)
 	FORCERIG_CHROMIUM="$$($(PY) -m tools.ensure_chromium)" \
 		FORCERIG_POSTGRES="$$($(PY) -m tools.ensure_postgres)" $(PY) -m pytest $(ARGS)
+	$(if $(strip $(ARGS)),,$(ON_POSTGRESQL))
 
 check: lint unit
 
