@@ -22,6 +22,7 @@ from app.errors import Refusal
 from app.health import router as health_router
 from app.histories.router import router as histories_router
 from app.live.router import router as live_router
+from app.no_nul import NoNul
 from app.prediction.router import router as predictions_router
 from app.presets import Presets, load_presets
 from app.problems import install_handlers
@@ -76,6 +77,7 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         docs_url=None,
         redoc_url=None,
     )
+    app.add_middleware(NoNul)
     app.add_middleware(BodyLimit, limits=_BODY_LIMITS)
     app.add_middleware(Guard, hosts=known_hosts(settings.allowed_hosts))
     install_handlers(app)

@@ -94,6 +94,23 @@ def test_what_is_read(case: AnyCase, console: ConsoleProcess, known: Known) -> N
             assert answer.json()["code"] == "unknown_revision"
 
 
+NUL = [
+    "/runs?search=%00", "/runs?test_id=%00", "/runs?tag=%00", "/runs?operator=a%00b",
+    "/tests?search=a%00b", "/tests?tag=%00", "/tests?after=%00", "/tests/%00",
+    "/tests/%00/revisions", "/tests/%00/difference?from=1&to=1", "/tests/%00/definition.yaml",
+    "/tests/library.zip?ids=%00", "/tests/library.zip?tag=%00",
+    "/storage/retention/preview?keep_tags=%00",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("path", NUL)
+def test_the_one_character_that_postgresql_does_not_know(
+    console: ConsoleProcess, path: str
+) -> None:
+    answer = console.http.get(path)
+    assert (answer.status_code, answer.json()["code"]) == (422, "invalid_request")
+
+
 @asking.parametrize()
 def test_what_is_asked(case: AnyCase, console: ConsoleProcess) -> None:
     case.call_and_validate(base_url=console.url, checks=CHECKS)
