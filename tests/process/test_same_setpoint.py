@@ -108,7 +108,9 @@ BLOCKS: dict[str, list[Block]] = {
                 {
                     "kind": "repeat",
                     "times": 2,
-                    "blocks": [{"kind": "time_history", "samples_n": bumps(60, 500.0), "rate_hz": 400}],
+                    "blocks": [
+                        {"kind": "time_history", "samples_n": bumps(60, 500.0), "rate_hz": 400}
+                    ],
                 },
             ],
         }
