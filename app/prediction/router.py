@@ -7,10 +7,10 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.catalogue import texts
 from app.catalogue.schemas import LONGEST_ID, Number, TestText
-from app.definitions.definition import Definition
 from app.dependencies import CatalogueService, PredictionsService
+from app.errors import Refusal
+from app.prediction.predicting import Predicted
 from app.prediction.schemas import Computing, Prediction
-from app.prediction.service import Predictions
 from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/tests", tags=["tests"], responses=PROBLEMS)
@@ -47,7 +47,8 @@ def predict_text(
 ) -> Prediction | Computing:
     """Run a test that is not saved on the virtual rig, with the present settings."""
     written = granted(texts.read(catalogue.reader, body))
-    return _answer(predictions, written.definition, body.wait_s, response)
+    found = predictions.of(written.definition, body.wait_s, draft=True)
+    return _answer(found, response)
 
 
 @router.post("/{test_id}/prediction", operation_id="predictTest", responses=_COMPUTING)
@@ -61,13 +62,10 @@ def predict_test(
     """Run a test on the virtual rig, with the present settings: what a start of it is held against."""
     asked = body or PredictionAsked()
     stored = granted(catalogue.definition_of(test_id, asked.revision))
-    return _answer(predictions, stored.definition, asked.wait_s, response)
+    return _answer(predictions.of(stored.definition, asked.wait_s), response)
 
 
-def _answer(
-    predictions: Predictions, definition: Definition, wait_s: float, response: Response
-) -> Prediction | Computing:
-    found = predictions.of(definition, wait_s)
+def _answer(found: Predicted | Computing | Refusal, response: Response) -> Prediction | Computing:
     if isinstance(found, Computing):
         response.status_code = 202
         return found

@@ -59,15 +59,19 @@ class Predictions:
         # At the priority of the console's other threads: one that is put off by other work while it
         # holds the interpreter's lock puts off the heartbeat too.
         self._workers = ThreadPoolExecutor(WORKERS, "prediction")
+        self._draft_worker = ThreadPoolExecutor(1, "draft")  # starts do not queue behind drafts
         self._jobs: dict[str, _Job] = {}
         self._kept: OrderedDict[str, Predicted] = OrderedDict()
         self._lock = threading.Lock()
         self._ending = threading.Event()
 
-    def of(self, definition: Definition, wait_s: float) -> Predicted | Computing | Refusal:
+    def of(
+        self, definition: Definition, wait_s: float, *, draft: bool = False
+    ) -> Predicted | Computing | Refusal:
         """The prediction of a test, or how far it is after waiting so long.
 
         Whoever asks for the same joins the same computation; who asks for another one cancels nothing.
+        A draft is a test that cannot be started: it is not saved.
         """
         setup = Setup(definition, *self._settings)
         key = key_of(setup)
@@ -81,7 +85,8 @@ class Predictions:
             job = self._jobs.get(key)
             if job is None:
                 job = self._jobs[key] = _Job()
-                self._workers.submit(self._compute, key, setup, job)
+                workers = self._draft_worker if draft else self._workers
+                workers.submit(self._compute, key, setup, job)
         wait([job.future], wait_s)
         if not job.future.done():
             return job.computing()
@@ -98,6 +103,7 @@ class Predictions:
         """Give up what is being computed: nobody is there any more to ask for it."""
         self._ending.set()
         self._workers.shutdown()
+        self._draft_worker.shutdown()
 
     def _compute(self, key: str, setup: Setup, job: _Job) -> None:
         job.began_s = time.monotonic()

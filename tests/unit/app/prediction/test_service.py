@@ -132,6 +132,19 @@ def test_another_test_cancels_nothing(predictions: Predictions, computer: Comput
     assert sorted(computer.asked) == [100.0, 200.0]
 
 
+def test_drafts_do_not_hold_up_what_may_be_started(
+    predictions: Predictions, computer: Computer
+) -> None:
+    for force_n in (1.0, 2.0, 3.0, 4.0):
+        predictions.of(_definition(force_n), 0.0, draft=True)
+    assert computer.half_way.wait(PATIENCE_S)
+    computer.half_way.clear()
+    predictions.of(_definition(100.0), 0.0)
+    assert computer.half_way.wait(PATIENCE_S)
+    assert 100.0 in computer.asked
+    assert len(computer.asked) == 2
+
+
 def test_what_is_kept_is_bounded_and_the_oldest_goes_first(
     predictions: Predictions, computer: Computer, monkeypatch: pytest.MonkeyPatch
 ) -> None:
