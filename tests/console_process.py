@@ -42,6 +42,10 @@ def patient_interlocks(folder: Path) -> Path:
     return path
 
 
+# The console that the tests of a folder share: it ends with the last of them.
+OF_FOLDER: dict[Path, "ConsoleProcess"] = {}
+
+
 class ConsoleProcess:
     """Starts, kills and restarts the console on one data directory."""
 

@@ -1,10 +1,11 @@
 """One console with a real loop for all tests of the interface."""
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
-from tests.console_process import ConsoleProcess
+from tests.console_process import OF_FOLDER, ConsoleProcess
 from tests.postgres import Server
 
 
@@ -18,6 +19,7 @@ def console(
         database_url = server.url(server.new_database())
     process = ConsoleProcess(tmp_path_factory.mktemp("console"), database_url)
     try:
+        OF_FOLDER[Path(__file__).parent] = process
         yield process.start()
     finally:
         process.clean_up()

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, ConsoleMessage, Page, Request, sync_playwright
 
-from tests.console_process import ConsoleProcess
+from tests.console_process import OF_FOLDER, ConsoleProcess
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 FLAGS = [
@@ -31,6 +31,7 @@ def console(tmp_path_factory: pytest.TempPathFactory) -> Iterator[ConsoleProcess
         pytest.skip("the console has not been built: make test builds it")
     process = ConsoleProcess(tmp_path_factory.mktemp("console"))
     try:
+        OF_FOLDER[Path(__file__).parent] = process
         yield process.start()
     finally:
         process.clean_up()
