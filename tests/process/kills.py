@@ -100,6 +100,8 @@ class Victim(ConsoleProcess):
         if self._process is not None and self._process.poll() is None:
             self._process.send_signal(signal.SIGKILL)
             self._process.wait(60)
+        if hasattr(self, "http"):
+            self.http.close()
 
     @property
     def runs(self) -> bool:
