@@ -18,7 +18,7 @@ from app.db import Database
 from app.definitions.definition import Definition
 from app.errors import Code, Refusal
 
-_ATTEMPTS = 5  # of two who take the same id at once on PostgreSQL
+_ATTEMPTS = 20  # at each, one of those who want the same id gets it
 
 
 @dataclass(frozen=True)
