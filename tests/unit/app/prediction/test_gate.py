@@ -5,7 +5,7 @@ import pytest
 from app.errors import Code, Refusal
 from app.prediction.gate import gate
 from app.prediction.schemas import Computing, PredictionVerdict, Reason
-from tests.unit.app.prediction.test_service import _predicted
+from tests.a_prediction import a_prediction
 
 
 @pytest.mark.parametrize(
@@ -23,7 +23,7 @@ from tests.unit.app.prediction.test_service import _predicted
 def test_the_verdict_and_a_reason_decide(
     verdict: str, reason: str | None, code: Code | None
 ) -> None:
-    found = _predicted("key")
+    found = a_prediction("key")
     found.prediction.verdict = PredictionVerdict(verdict)
     found.prediction.reasons = [
         Reason(code="x", text="The valve would saturate", severity="caution")

@@ -14,10 +14,11 @@ from app.prediction import service
 from app.prediction.key import key_of
 from app.prediction.play import Progress
 from app.prediction.predicting import Predicted
-from app.prediction.schemas import Computing, Peaks, Prediction, PredictionVerdict, Valve
+from app.prediction.schemas import Computing
 from app.prediction.service import Predictions
 from app.prediction.setup import Setup
 from rtcore.rig.parameters import load_rig
+from tests.a_prediction import a_prediction
 
 PATIENCE_S = 30.0
 
@@ -27,32 +28,6 @@ def _definition(force_n: float = 0.0) -> Definition:
     found = definition_from({"schema": 1, "name": "hold", "blocks": blocks})
     assert isinstance(found, Definition)
     return found
-
-
-def _predicted(key: str) -> Predicted:
-    """One that nothing was computed for."""
-    return Predicted(
-        Prediction(
-            verdict=PredictionVerdict.CLEAR,
-            reasons=[],
-            duration_s=0.1,
-            predicted_s=0.1,
-            shortened=[],
-            margins=[],
-            valve=Valve(peak=0.0, saturation_share=0.0, longest_saturation_s=0.0),
-            peaks=Peaks(**dict.fromkeys(Peaks.model_fields)),
-            blocks=[],
-            criteria=[],
-            outcome="completed",
-            reason=None,
-            computed_in_s=0.1,
-            speed=1.0,
-            seed=1,
-            key=key,
-        ),
-        None,
-        0,
-    )
 
 
 def _setup(force_n: float) -> Setup:
@@ -73,7 +48,7 @@ class Computer:
         self.half_way.set()
         assert self.goes_on.wait(PATIENCE_S)
         progress(1.0)
-        return _predicted(key_of(setup))
+        return a_prediction(key_of(setup))
 
 
 @pytest.fixture

@@ -13,8 +13,6 @@ from app.db import Database
 from app.definitions.definition import Definition
 from app.definitions.reading import definition_from
 from app.errors import Code, Refusal
-from app.prediction.predicting import Predicted
-from app.prediction.schemas import Peaks, Prediction, PredictionVerdict, Valve
 from app.runs import repository
 from app.runs.entering import Frozen
 from app.runs.models import Run
@@ -22,6 +20,7 @@ from app.runs.plans import Plans
 from app.runs.schemas import RunStart
 from app.runs.starting import Needs, Starter
 from rtcore.codes import Opcode
+from tests.a_prediction import a_prediction
 
 WRONG_MODE = Refusal(Code.WRONG_MODE, "Cannot start: the rig is not in a state for that")
 
@@ -31,28 +30,6 @@ def _stored() -> StoredTest:
     found = definition_from({"schema": 1, "name": "hold", "blocks": blocks})
     assert isinstance(found, Definition)
     return StoredTest("hold", 1, "hold", found)
-
-
-def _predicted() -> Predicted:
-    prediction = Prediction(
-        verdict=PredictionVerdict.CLEAR,
-        reasons=[],
-        duration_s=0.1,
-        predicted_s=0.1,
-        shortened=[],
-        margins=[],
-        valve=Valve(peak=0.0, saturation_share=0.0, longest_saturation_s=0.0),
-        peaks=Peaks(**dict.fromkeys(Peaks.model_fields)),
-        blocks=[],
-        criteria=[],
-        outcome="completed",
-        reason=None,
-        computed_in_s=0.1,
-        speed=1.0,
-        seed=1,
-        key="",
-    )
-    return Predicted(prediction, None, 0)
 
 
 class Lab:
@@ -65,7 +42,7 @@ class Lab:
         self.answers: list[Any] = []
         self.locked = False
         life = SimpleNamespace(name="1-42", period_ns=250_000, conditions=list)
-        stored, predicted = _stored(), _predicted()
+        stored, predicted = _stored(), a_prediction()
         link: Any = SimpleNamespace(life=life, load_program=lambda p: None, ask=self._ask)
         recorder: Any = SimpleNamespace(following=life)
         fakes: Any = SimpleNamespace(
