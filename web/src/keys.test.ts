@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { actionOf, takesText, VIEW_KEYS, type Press } from "./keys";
 import { COMMANDS } from "./live/operate";
-import { routeOf } from "./router";
+import { entryOf, routeOf } from "./router";
 
 const press = (key: string, change: Partial<Press> = {}): ReturnType<typeof actionOf> =>
   actionOf({
@@ -46,6 +46,14 @@ describe("actionOf", () => {
   });
 });
 
+describe("entryOf", () => {
+  it("lights the list that a page belongs to", () => {
+    expect(entryOf({ page: "run", id: 1, query: "" })).toBe("runs");
+    expect(entryOf({ page: "first-out", id: 1, query: "" })).toBe("interlocks");
+    expect(entryOf({ page: "system", tab: "audit" })).toBe("system");
+  });
+});
+
 describe("takesText", () => {
   it("tells text fields from buttons and boxes", () => {
     expect(takesText({ tagName: "INPUT", type: "text" })).toBe(true);
@@ -69,7 +77,17 @@ describe("routeOf", () => {
     expect(routeOf("#/tests/a%20b")).toEqual({ page: "test", id: "a b" });
     expect(routeOf("#/tests/%")).toEqual({ page: "test", id: "%" });
     expect(routeOf("#/new-test")).toEqual({ page: "test", id: null });
-    for (const hash of ["", "#", "#/", "#/operate", "#/nonsense"])
+    expect(routeOf("#/interlocks")).toEqual({ page: "interlocks" });
+    expect(routeOf("#/interlocks/first-outs/7?tab=replay")).toEqual({
+      page: "first-out",
+      id: 7,
+      query: "tab=replay",
+    });
+    expect(routeOf("#/interlocks/first-outs/none")).toEqual({ page: "interlocks" });
+    expect(routeOf("#/drills")).toEqual({ page: "drills" });
+    expect(routeOf("#/system/audit")).toEqual({ page: "system", tab: "audit" });
+    expect(routeOf("#/system")).toEqual({ page: "system", tab: "users" });
+    for (const hash of ["", "#", "#/", "#/operate", "#/nonsense", "#/constructor"])
       expect(routeOf(hash)).toEqual({ page: "operate" });
   });
 });

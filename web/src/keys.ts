@@ -4,7 +4,9 @@ import { COMMANDS } from "./live/operate";
 import type { Command } from "./live/types";
 
 type KeyOfView =
-  ("help" | "theme" | "operate" | "tests" | "runs") | ("acknowledge" | "pause" | "shorter" | "longer" | "stage");
+  | ("help" | "theme")
+  | ("operate" | "tests" | "runs" | "interlocks" | "drills" | "system")
+  | ("acknowledge" | "pause" | "shorter" | "longer" | "stage");
 
 export type KeyAction =
   | { readonly kind: "stop" }
@@ -28,6 +30,9 @@ export const VIEW_KEYS: readonly KeyInfo[] = [
   { key: "1", does: "Operate", action: { kind: "operate" } },
   { key: "2", does: "Tests", action: { kind: "tests" } },
   { key: "3", does: "Runs", action: { kind: "runs" } },
+  { key: "4", does: "Interlocks", action: { kind: "interlocks" } },
+  { key: "5", does: "Drills", action: { kind: "drills" } },
+  { key: "6", does: "System", action: { kind: "system" } },
   { key: "t", does: "Theme: auto, light, dark", action: { kind: "theme" } },
   { key: "?", does: "Show or hide these keys", action: { kind: "help" } },
 ];
