@@ -2,7 +2,9 @@
 
 from alembic import context
 
+import app.audit.models
 import app.catalogue.models
+import app.interlocks.models
 import app.runs.models
 import app.storage.models  # noqa: F401
 from app.db import Base

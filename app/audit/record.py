@@ -1,0 +1,44 @@
+"""What every change calls: `record` in its own transaction, `note` where it has none."""
+
+from collections.abc import Callable
+
+from sqlalchemy import event
+from sqlalchemy.orm import Session
+
+from app.audit import repository
+from app.audit.entry import Act, Entry, act
+
+__all__ = ["APPENDED", "Entry", "note", "record", "take_notes"]
+
+_WAITING = "audit_waiting"
+APPENDED = "audit_appended"  # in `session.info`: the end before, and the rows that were added
+_takers: list[Callable[[Act], None]] = []
+
+
+def record(session: Session, entry: Entry) -> None:
+    """Enter an act together with the change that it tells of: both are committed, or neither.
+
+    It is chained on as the last thing before the commit, whenever this is called: so changes
+    wait for one another's place in the chain only for that moment.
+    """
+    session.info.setdefault(_WAITING, []).append(act(entry))
+
+
+def note(entry: Entry) -> None:
+    """Enter an act that has no transaction: returns at once, and the row is written soon after."""
+    noted = act(entry)
+    for take in _takers:
+        take(noted)
+
+
+def take_notes(taker: Callable[[Act], None] | None) -> None:
+    """Who takes what is noted in this process: None for nobody."""
+    _takers[:] = [] if taker is None else [taker]
+
+
+@event.listens_for(Session, "before_commit")
+def _chain_on(session: Session) -> None:
+    waiting = session.info.pop(_WAITING, None)
+    if waiting:
+        session.flush()  # whatever locks the change needs, it has them before the chain's
+        session.info[APPENDED] = repository.append(session, waiting)
