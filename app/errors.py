@@ -33,6 +33,8 @@ class Code(StrEnum):
     LOOP_LOST = "loop_lost"
     LOOP_SILENT = "loop_silent"
     WRONG_MODE = "wrong_mode"
+    LEASE_NEEDED = "lease_needed"
+    LEASE_HELD = "lease_held"
     STALE_LEASE = "stale_lease"
     EXPIRED = "expired"
     REPLAYED = "replayed"

@@ -41,6 +41,8 @@ STATUS: Mapping[Code, int] = {
     Code.LOOP_LOST: 503,
     Code.LOOP_SILENT: 504,
     Code.WRONG_MODE: 409,
+    Code.LEASE_NEEDED: 409,
+    Code.LEASE_HELD: 409,
     Code.STALE_LEASE: 409,
     Code.EXPIRED: 504,
     Code.REPLAYED: 409,
