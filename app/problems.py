@@ -22,6 +22,8 @@ STATUS: Mapping[Code, int] = {
     Code.INVALID_REQUEST: 422,
     Code.NOT_FOUND: 404,
     Code.METHOD_NOT_ALLOWED: 405,
+    Code.NOT_SIGNED_IN: 401,
+    Code.NOT_ALLOWED: 403,
     Code.FOREIGN_ORIGIN: 403,
     Code.UNKNOWN_HOST: 403,
     Code.TOO_LARGE: 413,
