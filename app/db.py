@@ -26,7 +26,7 @@ from sqlalchemy import (
     make_url,
 )
 from sqlalchemy.exc import IntegrityError
-from sqlalchemy.orm import DeclarativeBase, Session
+from sqlalchemy.orm import DeclarativeBase, Session, sessionmaker
 from sqlalchemy.types import TypeEngine
 
 from app.settings import Settings
@@ -107,6 +107,7 @@ class Database:
                 isolation_level="REPEATABLE READ", postgresql_readonly=True
             )
         self._writer = self.engine.execution_options(writes=True)
+        self.writers = sessionmaker(self._writer, expire_on_commit=False)
 
     def upgrade(self, revision: str = "head") -> None:
         """Bring the tables to the newest revision; an interrupted one has changed nothing."""
@@ -152,7 +153,7 @@ class Database:
     @contextmanager
     def writing(self) -> Iterator[Session]:
         """A session that is committed at the end, or rolled back where it failed."""
-        with Session(self._writer, expire_on_commit=False) as session, session.begin():
+        with self.writers.begin() as session:
             yield session
 
     def close(self) -> None:

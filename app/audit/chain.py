@@ -10,9 +10,6 @@ from app.audit.models import AuditRow
 from app.documents.canonical import fingerprint
 from app.runs.words import words_of
 
-_SAID = ("who", "role", "credential", "action", "target", "why", "before", "after")
-_HASHED = (*_SAID, "outcome", "key", "previous_hash")
-
 
 class Link(NamedTuple):
     """A row's place in the chain: its number, which is how many rows there are up to it, its hash."""
@@ -28,16 +25,16 @@ def rows_after(newest: Link, acts: Iterable[Act]) -> Iterator[dict[str, Any]]:
     """The rows of some acts, chained on."""
     for act in acts:
         row = asdict(act) | {"id": newest.id + 1, "previous_hash": newest.hash}
-        row["hash"] = hash_of(row)
         row["words"] = searched(row)
+        row["hash"] = hash_of(row)
         newest = Link(row["id"], row["hash"])
         yield row
 
 
 def hash_of(row: dict[str, Any]) -> str:
-    """SHA-256 of all that a row says and the hash before; words are made of it and do not count."""
+    """SHA-256 of everything in a row but its hash; the hash of the row before is in it."""
     at = row["at"].astimezone(UTC).isoformat(timespec="microseconds")
-    return fingerprint({"id": row["id"], "at": at, **{name: row[name] for name in _HASHED}})
+    return fingerprint({**row, "at": at, "hash": None})
 
 
 def searched(row: dict[str, Any]) -> str:

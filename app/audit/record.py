@@ -1,6 +1,7 @@
 """What every change calls: `record` in its own transaction, `note` where it has none."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from uuid import uuid4
 
 from sqlalchemy import event
 from sqlalchemy.orm import Session
@@ -8,7 +9,7 @@ from sqlalchemy.orm import Session
 from app.audit import repository
 from app.audit.entry import Act, Entry, act
 
-__all__ = ["APPENDED", "Entry", "note", "record", "take_notes"]
+__all__ = ["APPENDED", "Entry", "enter", "note", "record", "take_notes"]
 
 _WAITING = "audit_waiting"
 APPENDED = "audit_appended"  # in `session.info`: the end before, and the rows that were added
@@ -21,14 +22,19 @@ def record(session: Session, entry: Entry) -> None:
     It is chained on as the last thing before the commit, whenever this is called: so changes
     wait for one another's place in the chain only for that moment.
     """
-    session.info.setdefault(_WAITING, []).append(act(entry))
+    enter(session, [act(entry)])
 
 
 def note(entry: Entry) -> None:
     """Enter an act that has no transaction: returns at once, and the row is written soon after."""
-    noted = act(entry)
+    noted = act(entry, uuid4().hex)
     for take in _takers:
         take(noted)
+
+
+def enter(session: Session, acts: Iterable[Act]) -> None:
+    """Enter acts with the commit of this transaction; those with keys that are in it already, not."""
+    session.info.setdefault(_WAITING, []).extend(acts)
 
 
 def take_notes(taker: Callable[[Act], None] | None) -> None:

@@ -13,12 +13,17 @@ _LOCK = 0x61756469  # "audi": no other lock of the console has this number
 
 
 def append(session: Session, acts: Sequence[Act]) -> list[Link]:
-    """Chain acts on, after every other writer: what is read here is the end until the commit."""
+    """Chain acts on, after every other writer: what is read here is the end until the commit.
+
+    Returns the end before, and the new rows. An act whose key is there already is not entered again.
+    """
     if session.get_bind().dialect.name == "postgresql":  # SQLite has one writer anyway
         session.execute(select(func.pg_advisory_xact_lock(_LOCK)))
     before = newest(session)
-    rows = list(rows_after(before, acts))
-    session.execute(insert(AuditRow), rows)
+    known = _known(session, [act.key for act in acts if act.key is not None])
+    rows = list(rows_after(before, (act for act in acts if act.key not in known)))
+    if rows:
+        session.execute(insert(AuditRow), rows)
     return [before, *(Link(row["id"], row["hash"]) for row in rows)]
 
 
@@ -27,3 +32,17 @@ def newest(session: Session) -> Link:
     query = select(AuditRow.id, AuditRow.hash).order_by(AuditRow.id.desc()).limit(1)
     found = session.execute(query).first()
     return START if found is None else Link(*found)
+
+
+def _known(session: Session, keys: Sequence[str]) -> set[str | None]:
+    if not keys:
+        return set()
+    return set(session.scalars(select(AuditRow.key).where(AuditRow.key.in_(keys))))
+
+
+def link(session: Session, number: int) -> Link | None:
+    """A row's place in the chain; None where there is no such row."""
+    if number == START.id:
+        return START
+    found = session.scalar(select(AuditRow.hash).where(AuditRow.id == number))
+    return None if found is None else Link(number, found)

@@ -1,6 +1,7 @@
 """`/api/v1/rig` and `/api/v1/channels`."""
 
 import asyncio
+from contextvars import copy_context
 
 from fastapi import APIRouter
 
@@ -26,7 +27,10 @@ async def command_rig(
 
     It has threads of its own: however many slow requests there are, Stop does not queue behind them.
     """
-    answer = await asyncio.get_running_loop().run_in_executor(threads, rig.command, body.command)
+    as_who_asks = copy_context().run
+    answer = await asyncio.get_running_loop().run_in_executor(
+        threads, as_who_asks, rig.command, body.command
+    )
     return granted(answer)
 
 

@@ -1,7 +1,11 @@
-"""Commands to the rig. They need the shared block and nothing else: no database, no files."""
+"""Commands to the rig. They need the shared block and nothing else: no database, no files.
+
+What was asked for is noted in the audit, which never makes a command wait.
+"""
 
 from collections.abc import Callable
 
+from app.audit.record import Entry, note
 from app.errors import Code, Refusal
 from app.link.life import Life
 from app.link.link import Link
@@ -18,7 +22,12 @@ class Rig:
         self._reasons = reasons
 
     def command(self, command: RigCommand) -> CommandDone | Refusal:
-        """Give a command and wait for the loop's answer."""
+        """Give a command and wait for the loop's answer. It is in the audit, done or refused."""
+        answer = self._command(command)
+        note(_entry(command, answer))
+        return answer
+
+    def _command(self, command: RigCommand) -> CommandDone | Refusal:
         answer = self._link.ask(Opcode[command.name])
         if not isinstance(answer, Refusal):
             return CommandDone(command=command, tick=answer.tick)
@@ -51,3 +60,10 @@ class Rig:
             return refusal
         reason = getattr(self._reasons(), command.value)
         return refusal if reason is None else Refusal(refusal.code, reason)
+
+
+def _entry(command: RigCommand, answer: CommandDone | Refusal) -> Entry:
+    action = f"rig.{command.value}"
+    if isinstance(answer, Refusal):
+        return Entry(action, "rig", why=answer.detail, refused=answer.code)
+    return Entry(action, "rig", after={"tick": answer.tick})
