@@ -6,6 +6,7 @@ from typing import Annotated, cast
 from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
+from app.audit.service import Audit
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
 from app.histories.store import Store
@@ -27,6 +28,10 @@ def console(connection: HTTPConnection) -> Console:
 
 
 ThisConsole = Annotated[Console, Depends(console)]
+
+
+def _audit(this: ThisConsole) -> Audit:
+    return this.audit
 
 
 def _histories(this: ThisConsole) -> Store:
@@ -81,6 +86,7 @@ def _starter(this: ThisConsole) -> Starter:
     return this.starter
 
 
+AuditService = Annotated[Audit, Depends(_audit)]
 HistoryStore = Annotated[Store, Depends(_histories)]
 Status = Annotated[StatusReader, Depends(_status)]
 RigService = Annotated[Rig, Depends(_rig)]

@@ -13,6 +13,7 @@ from anyio.to_thread import run_sync
 from fastapi import FastAPI
 from fastapi.responses import HTMLResponse
 
+from app.audit.router import router as audit_router
 from app.body_limit import BodyLimit
 from app.catalogue.router import router as tests_router
 from app.catalogue.texts_router import router as texts_router
@@ -93,6 +94,7 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         results_router,
         predicted_router,
         storage_router,
+        audit_router,
         live_router,
     ):
         app.include_router(router)

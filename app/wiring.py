@@ -4,6 +4,7 @@ import logging
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
+from app.audit.service import Audit
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
 from app.catalogue.shipped import enter_shipped
@@ -53,6 +54,7 @@ class Console:
             rig=presets.rig.model_dump(mode="json"),
         )
         self.database = Database(settings.database_address)
+        self.audit = Audit(self.database, settings.data_dir)
         self.histories = Store(settings.histories_dir)
         measuring = partial(measure, histories=self.histories)
         ledger = Ledger(self.database, settings.runs_dir, measuring, self._runs_changed)
@@ -100,6 +102,7 @@ class Console:
         """
         self.settings.runs_dir.mkdir(parents=True, exist_ok=True)
         self.database.upgrade()
+        self.audit.open()
         enter_shipped(self.database, self.catalogue.reader)
         self._plans.recall(self.database)
         self.link.start()
@@ -122,6 +125,7 @@ class Console:
         self._clerk.stop()
         self.link.forget()
         self.command_threads.shutdown()
+        self.audit.close()
         self.database.close()
 
     def _runs_changed(self) -> None:

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
-from datetime import UTC
 from typing import Any, NamedTuple
 
 from app.audit.entry import Act
@@ -33,8 +32,7 @@ def rows_after(newest: Link, acts: Iterable[Act]) -> Iterator[dict[str, Any]]:
 
 def hash_of(row: dict[str, Any]) -> str:
     """SHA-256 of everything in a row but its hash; the hash of the row before is in it."""
-    at = row["at"].astimezone(UTC).isoformat(timespec="microseconds")
-    return fingerprint({**row, "at": at, "hash": None})
+    return fingerprint({**row, "hash": None})
 
 
 def searched(row: dict[str, Any]) -> str:

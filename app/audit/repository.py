@@ -1,6 +1,6 @@
 """Queries on the audit. Each takes the session of the one transaction that it is part of."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from sqlalchemy import func, insert, select
 from sqlalchemy.orm import Session
@@ -8,8 +8,10 @@ from sqlalchemy.orm import Session
 from app.audit.chain import START, Link, rows_after
 from app.audit.entry import Act
 from app.audit.models import AuditRow
+from app.audit.sought import Sought
 
 _LOCK = 0x61756469  # "audi": no other lock of the console has this number
+_AT_A_TIME = 1000
 
 
 def append(session: Session, acts: Sequence[Act]) -> list[Link]:
@@ -46,3 +48,22 @@ def link(session: Session, number: int) -> Link | None:
         return START
     found = session.scalar(select(AuditRow.hash).where(AuditRow.id == number))
     return None if found is None else Link(number, found)
+
+
+def page(session: Session, sought: Sought, limit: int, before: int | None) -> Sequence[AuditRow]:
+    """The newest rows among those that are sought, or those before a number."""
+    query = select(AuditRow).where(*sought.conditions())
+    if before is not None:
+        query = query.where(AuditRow.id < before)
+    return session.scalars(query.order_by(AuditRow.id.desc()).limit(limit)).all()
+
+
+def every(session: Session) -> Iterable[AuditRow]:
+    """All rows in order, however many: they are read as they are asked for."""
+    query = select(AuditRow).order_by(AuditRow.id).execution_options(yield_per=_AT_A_TIME)
+    return session.scalars(query)
+
+
+def count(session: Session) -> int:
+    """How many rows there are."""
+    return session.scalar(select(func.count()).select_from(AuditRow)) or 0

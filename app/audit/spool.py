@@ -5,14 +5,14 @@ import logging
 import os
 from collections.abc import Iterable
 from dataclasses import asdict
-from datetime import datetime
 from pathlib import Path
 from threading import Lock
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from app.audit.entry import Act
 
 _log = logging.getLogger(__name__)
+SPOOL_FILE = "audit-spool.jsonl"
 
 
 class Batch(NamedTuple):
@@ -76,15 +76,13 @@ class Spool:
 
 
 def _line(act: Act) -> bytes:
-    told: dict[str, Any] = asdict(act) | {"at": act.at.isoformat()}
-    return json.dumps(told, allow_nan=False).encode() + b"\n"
+    return json.dumps(asdict(act)).encode() + b"\n"
 
 
 def _read(line: bytes) -> list[Act]:
     """The act of a line; none where it is torn."""
     try:
-        told = json.loads(line)
-        return [Act(**(told | {"at": datetime.fromisoformat(told["at"])}))]
-    except (ValueError, TypeError, KeyError):
+        return [Act(**json.loads(line))]
+    except (ValueError, TypeError):
         _log.warning("audit: a line of the spool cannot be read: %r", line[:200])
         return []

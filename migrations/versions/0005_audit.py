@@ -21,7 +21,7 @@ def upgrade() -> None:
     op.create_table(
         "audit",
         sa.Column("id", BIG, primary_key=True, autoincrement=False),
-        sa.Column("at", sa.DateTime, nullable=False),
+        sa.Column("at", _key_text(32), nullable=False),
         sa.Column("who", _key_text(200), nullable=False),
         sa.Column("role", sa.String(200), nullable=False),
         sa.Column("credential", sa.String(200), nullable=False),
