@@ -18,6 +18,9 @@ class Opcode(IntEnum):
     ADOPT_GAINS = 10
     ADOPT_INTERLOCKS = 11
     ADOPT_PROGRAM = 12
+    INJECT_FAULT = 13  # into the simulated rig: which, and how much; 0 takes it away
+    CLEAR_FAULTS = 14
+    TAKE_LEASE = 15  # from now on only commands of this epoch are obeyed
 
 
 class Reply(IntEnum):
@@ -34,6 +37,8 @@ class Reply(IntEnum):
     NO_PROGRAM = 8
     BUSY = 9
     NOT_CONFIGURED = 10  # no gains or no interlocks have been adopted
+    NOT_AN_EDGE = 11  # the reset is held down
+    NOT_SIMULATED = 12  # nobody breaks a real rig
 
 
 class EventKind(IntEnum):
@@ -46,3 +51,7 @@ class EventKind(IntEnum):
     PROGRAM_ENDED = 5
     DEADLINES_MISSED = 6
     PROGRAM_FAULT = 7  # a streamed program that did not come in time, or leads beyond the limits
+    CLEARED = 8  # a detector that does not latch is content again
+    LEASE = 9  # the epoch of the lease that is obeyed from now on
+    FAULT = 10  # injected into the simulated rig, with its amount
+    STOP_ASKED = 11  # on the path that needs no command

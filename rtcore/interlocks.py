@@ -1,4 +1,4 @@
-"""The table of detectors, evaluated every tick; the first to trip is kept."""
+"""The table of detectors: what each watches, how it judges that, and what it does about it."""
 
 import math
 from enum import IntEnum
@@ -8,28 +8,64 @@ import numpy as np
 from rtcore.compiled import Record, kernel
 from rtcore.modes import Mode
 
-MAX_DETECTORS = 32
+MAX_DETECTORS = 64  # one bit of the trips each
 
 
 class Quantity(IntEnum):
-    """What a detector may watch."""
+    """What a detector may watch. See `rtcore.quantities` for those that are derived."""
 
     FORCE_N = 0
     FORCE_ERROR_N = 1
     DISPLACEMENT_M = 2
     VELOCITY_M_S = 3
     SUPPLY_PRESSURE_PA = 4
-    SENSOR_FAULTS = 5  # sensors that are not finite, saturated or frozen
+    LOAD_CELL = 5  # a SensorFault, as those of the other sensors
     APP_SILENCE_S = 6  # time since the app's last heartbeat
     DEADLINES_MISSED = 7  # deadlines missed in one gap
+    LVT = 8
+    LVDT = 9
+    PRESSURE_SENSOR = 10
+    FORCE_ERROR_RELATIVE = 11  # error over the recent peak of the command
+    UNDERPEAK = 12  # share by which the swing of the last cycle fell short of its command
+    VALVE_COMMAND = 13
+    VALVE_SATURATION = 14  # share of the last time that the valve was at its limit
+    CYCLES = 15  # completed in this run
+    TWIN_RESIDUAL_N = 16  # load cell minus that of the virtual rig beside it
+    TWIN_GOODNESS = 17  # rolling G of the two, %
+    UNRECORDED_S = 18  # samples that are not safe on a disk yet
+    CHAIN_OPEN = 19  # the hard-wired chain, 0 closed, 1 open
+    DISPLACEMENT_ERROR_M = 20
+    PRESSURE_1_PA = 21
+    PRESSURE_2_PA = 22
+
+
+class SensorFault(IntEnum):
+    """Why a sensor cannot be believed; the first that applies."""
+
+    NONE = 0
+    NOT_A_NUMBER = 1
+    SATURATED = 2
+    FROZEN = 3  # repeats itself to the last bit
+    NOISE_FREE = 4  # smoother than its converter can be
+    OUT_OF_RANGE = 5
+    IMPLAUSIBLE = 6  # contradicts another sensor by the rig's physics
+
+
+class Form(IntEnum):
+    """Which value is made of a quantity before it is compared."""
+
+    VALUE = 0
+    RATE = 1  # its change in a second
+    LOOK_AHEAD = 2  # what it will be after the horizon, at its present rate
 
 
 class Comparison(IntEnum):
-    """When a detector is violated; a NaN violates all three."""
+    """When a detector is violated; a NaN violates all of them."""
 
     MAGNITUDE_ABOVE = 0
     ABOVE = 1
     BELOW = 2
+    OUTSIDE = 3  # of the band from `low` to `threshold`
 
 
 class Action(IntEnum):
@@ -44,17 +80,25 @@ class Action(IntEnum):
 DETECTOR = np.dtype(
     [
         ("quantity", "i4"),
+        ("form", "i4"),
         ("comparison", "i4"),
         ("action", "i4"),
         ("enabled", "i4"),
+        ("latching", "i4"),  # STOP and SHUTDOWN latch whatever this says
         ("armed_modes", "i8"),  # one bit a mode
         ("persistence_ticks", "i8"),  # violated this long before it trips, at least 1
         ("threshold", "f8"),
+        ("low", "f8"),  # of a band
+        ("horizon_s", "f8"),  # of a look-ahead
+        ("smoothing_s", "f8"),  # of a rate, 0 for none
     ],
     align=True,
 )
 
 INTERLOCKS = np.dtype([("count", "i8"), ("detectors", DETECTOR, (MAX_DETECTORS,))], align=True)
+
+# What a detector remembers of the value before.
+TREND = np.dtype([("last", "f8"), ("rate_1_s", "f8")], align=True)
 
 
 def armed_in(*modes: Mode) -> int:
@@ -62,8 +106,29 @@ def armed_in(*modes: Mode) -> int:
     return sum(1 << mode for mode in modes)
 
 
-_QUANTITIES, _COMPARISONS, _ACTIONS = len(Quantity), len(Comparison), len(Action)
+_QUANTITIES, _FORMS, _COMPARISONS, _ACTIONS = (
+    len(members) for members in (Quantity, Form, Comparison, Action)
+)
 NO_ACTION = -1
+
+
+@kernel
+def judged_value(detector: Record, trend: Record, value: float, period_s: float) -> float:
+    """The value that is compared, in the unit of the quantity (a second, for a rate).
+
+    The rate starts anew after a value that is no number, so that a fault that has gone leaves nothing behind.
+    """
+    rate = (value - trend.last) / period_s
+    trend.last = value
+    if not math.isfinite(rate):
+        rate = 0.0
+    share = period_s / max(detector.smoothing_s, period_s)
+    trend.rate_1_s += share * (rate - trend.rate_1_s)
+    if detector.form == Form.VALUE or not math.isfinite(value):
+        return value
+    if detector.form == Form.RATE:
+        return trend.rate_1_s
+    return value + detector.horizon_s * trend.rate_1_s
 
 
 @kernel
@@ -73,6 +138,8 @@ def is_violated(detector: Record, value: float) -> bool:
         return not (value <= detector.threshold)
     if detector.comparison == Comparison.BELOW:
         return not (value >= detector.threshold)
+    if detector.comparison == Comparison.OUTSIDE:
+        return not (detector.low <= value <= detector.threshold)
     return not (abs(value) <= detector.threshold)
 
 
@@ -86,15 +153,29 @@ def check_detector(detector: Record, value: float, mode: int, violated_ticks: in
 
 
 @kernel
+def latches(detector: Record) -> bool:
+    """Whether a trip stays until a reset. What takes the load off always does."""
+    return detector.action >= Action.STOP or detector.latching != 0
+
+
+@kernel
 def interlocks_are_valid(table: Record) -> bool:
     """Whether the loop may adopt a table: within the bank, every detector meaningful."""
-    if table.count < 1 or table.count > MAX_DETECTORS:
+    if not 1 <= table.count <= MAX_DETECTORS:
         return False
+    meaningless = 0
     for i in range(table.count):
-        d = table.detectors[i]
-        known = 0 <= d.quantity < _QUANTITIES and 0 <= d.comparison < _COMPARISONS
-        if not known or not 0 <= d.action < _ACTIONS:
-            return False
-        if d.persistence_ticks < 1 or not math.isfinite(d.threshold):
-            return False
-    return True
+        meaningless += not detector_is_valid(table.detectors[i])
+    return meaningless == 0
+
+
+@kernel
+def detector_is_valid(d: Record) -> bool:
+    """Whether every field of a detector means something."""
+    known = 0 <= d.quantity < _QUANTITIES and 0 <= d.form < _FORMS
+    if not (known and 0 <= d.comparison < _COMPARISONS and 0 <= d.action < _ACTIONS):
+        return False
+    if d.comparison == Comparison.OUTSIDE and not (-math.inf < d.low < d.threshold):
+        return False
+    timed = 0.0 <= d.horizon_s < math.inf and 0.0 <= d.smoothing_s < math.inf
+    return timed and d.persistence_ticks >= 1 and math.isfinite(d.threshold)

@@ -3,14 +3,17 @@
 Only the adoption of a program takes several ticks, and only while no test runs.
 """
 
+import math
+
 import numpy as np
 
 from rtcore.codes import EventKind, Opcode, Reply
-from rtcore.compiled import Record, kernel
+from rtcore.compiled import Record, kernel, load_acquire, offset_of
 from rtcore.control.law import adopt_gains, gains_are_valid
 from rtcore.interlocks import interlocks_are_valid
+from rtcore.io import FAULT_SLOTS
 from rtcore.memory.commands import acknowledge, pending
-from rtcore.memory.layout import COMMAND_SLOTS
+from rtcore.memory.layout import BLOCK, COMMAND_SLOTS
 from rtcore.memory.playing import rewind
 from rtcore.memory.rings import publish_event
 from rtcore.modes import Event, Mode, is_run
@@ -21,6 +24,7 @@ from rtcore.program.validate import (
     segment_is_valid,
     table_is_bounded,
 )
+from rtcore.sample import sensors_are_sound
 from rtcore.supervise import apply_event, clear_trips, keep_trips, start_run
 
 # The event of the mode that a command is, by opcode; -1 for those that are none.
@@ -35,6 +39,7 @@ for _opcode, _event in (
     (Opcode.SHUTDOWN, Event.TRIP),
 ):
     _EVENT_OF[_opcode] = _event
+_STOP_ASKED = offset_of(BLOCK, "stop_asked_ns")
 SEGMENTS_A_TICK = 32
 TARE_REST_S = 2.0  # eight time constants of the tare's running mean
 TARE_BLED_PA = 1e6
@@ -49,8 +54,12 @@ def _done(happened: bool) -> int:
 
 @kernel
 def _reset(core: Record, block: Record, block_address: int) -> int:
-    """Clear what is latched, where its cause is gone. Starts nothing."""
-    if core.violated != 0 or core.trip_after_stop != 0:
+    """Clear what is latched, by a press and not by a key held down, where its cause is gone. Starts nothing."""
+    held = core.tick - core.last_reset_tick < core.settings.reset_edge_ticks
+    core.last_reset_tick = core.tick
+    if held:
+        return Reply.NOT_AN_EDGE
+    if core.acting != 0 or core.trip_after_stop != 0:
         return Reply.CAUSE_PRESENT
     if core.mode == Mode.TRIPPED:
         apply_event(core, block_address, Event.RESET)
@@ -70,7 +79,7 @@ def _tare(core: Record) -> int:
     small = abs(offset_n) <= TARE_SHARE * settings.force_range_n
     scatter_n = abs(core.inputs.force_n - offset_n)
     steady = scatter_n <= TARE_SCATTER_SHARE * settings.force_range_n
-    if core.sample.faults != 0 or not (rested and bled and small and steady):
+    if not (sensors_are_sound(core.sample) and rested and bled and small and steady):
         return Reply.CAUSE_PRESENT
     core.sample.tare_n = core.sample.untared_mean_n
     return Reply.ACCEPTED
@@ -96,6 +105,8 @@ def _adopt_small(core: Record, block: Record, opcode: int, bank: int) -> int:
     block.active_interlocks = bank
     core.has_interlocks = 1
     core.violated_ticks[:] = 0
+    for i in range(len(core.trends)):
+        core.trends[i].last = np.nan  # of another quantity, maybe
     return Reply.ACCEPTED
 
 
@@ -160,11 +171,46 @@ def _start(core: Record, block: Record, block_address: int, run: int) -> int:
 
 
 @kernel
-def _carry_out(core: Record, block: Record, block_address: int, opcode: int, argument: int) -> int:
+def _inject(core: Record, block: Record, block_address: int, kind: int, amount: float) -> int:
+    """Have the simulated rig break, or mend it again with an amount of 0."""
+    if core.settings.simulated == 0:
+        return Reply.NOT_SIMULATED
+    if not (0 < kind < FAULT_SLOTS and math.isfinite(amount)):
+        return Reply.UNKNOWN
+    core.injected[kind] = block.injected[kind] = amount
+    publish_event(block_address, core.tick, EventKind.FAULT, kind, amount, 0.0)
+    return Reply.ACCEPTED
+
+
+@kernel
+def _clear_faults(core: Record, block: Record, block_address: int) -> int:
+    for kind in range(FAULT_SLOTS):
+        if core.injected[kind] != 0.0:
+            _inject(core, block, block_address, kind, 0.0)
+    return Reply.ACCEPTED
+
+
+@kernel
+def _take_lease(core: Record, block: Record, block_address: int, epoch: int) -> int:
+    """Obey only this epoch from now on. Epochs only grow: what an earlier holder sent comes too late."""
+    if not epoch > core.lease:
+        return Reply.STALE_LEASE
+    core.lease = block.lease = epoch
+    publish_event(block_address, core.tick, EventKind.LEASE, epoch, 0.0, 0.0)
+    return Reply.ACCEPTED
+
+
+@kernel
+def _carry_out(core: Record, block: Record, block_address: int, command: Record) -> int:
+    opcode, argument = command.opcode, command.argument
     if opcode in (Opcode.ADOPT_GAINS, Opcode.ADOPT_INTERLOCKS):
         return _adopt_small(core, block, opcode, argument)
     if opcode == Opcode.ADOPT_PROGRAM:
         return _adopt_program(core, block, block_address, argument)
+    if opcode == Opcode.INJECT_FAULT:
+        return _inject(core, block, block_address, argument, command.value)
+    if opcode == Opcode.CLEAR_FAULTS:
+        return _clear_faults(core, block, block_address)
     if opcode == Opcode.RESET:
         return _reset(core, block, block_address)
     if opcode == Opcode.TARE:
@@ -173,11 +219,22 @@ def _carry_out(core: Record, block: Record, block_address: int, opcode: int, arg
         return Reply.UNKNOWN
     if opcode == Opcode.PRESSURISE and (core.has_gains == 0 or core.has_interlocks == 0):
         return Reply.NOT_CONFIGURED
-    if core.trips != 0 and opcode in (Opcode.PRESSURISE, Opcode.START, Opcode.RESUME):
+    if core.blocking != 0 and opcode in (Opcode.PRESSURISE, Opcode.START, Opcode.RESUME):
         return Reply.CAUSE_PRESENT
     if opcode == Opcode.START:
         return _start(core, block, block_address, argument)
     return _done(apply_event(core, block_address, _EVENT_OF[opcode]))
+
+
+@kernel
+def take_stop(core: Record, block: Record, block_address: int) -> None:
+    """Stop where it was asked for on the path of its own. Without a test there is nothing to stop."""
+    asked_ns = load_acquire(block_address + _STOP_ASKED)
+    if asked_ns == core.stops_seen_ns:
+        return
+    core.stops_seen_ns = asked_ns
+    stopped = apply_event(core, block_address, Event.STOP)
+    publish_event(block_address, core.tick, EventKind.STOP_ASKED, int(stopped), core.run, 0.0)
 
 
 @kernel
@@ -191,11 +248,12 @@ def take_command(core: Record, block: Record, block_address: int, now_ns: int) -
         reply: int = Reply.REPLAYED
     elif now_ns > command.expires_ns and not stops:
         reply = Reply.EXPIRED
-    elif command.lease < core.lease and not stops:
+    elif command.opcode == Opcode.TAKE_LEASE:
+        reply = _take_lease(core, block, block_address, command.lease)
+    elif command.lease != core.lease and not stops:
         reply = Reply.STALE_LEASE
     else:
-        core.lease = max(core.lease, command.lease)
-        reply = _carry_out(core, block, block_address, command.opcode, command.argument)
+        reply = _carry_out(core, block, block_address, command)
     if reply != Reply.BUSY:
         core.commands_seen += 1
         core.last_reply = reply

@@ -100,8 +100,10 @@ def keep_trips(core: Record, block: Record, before: Record, after: Record) -> No
         bit = np.uint64(1) << np.uint64(i)
         old, new = before.detectors[i], after.detectors[i]
         same = old.quantity == new.quantity and old.comparison == new.comparison
+        same = same and old.form == new.form and old.action == new.action
         if core.trips & bit and not (i < after.count and same):
             core.trips ^= bit
+            core.blocking &= ~bit
             if block.first_out == i:
                 block.first_out = -1
 
@@ -110,4 +112,5 @@ def keep_trips(core: Record, block: Record, before: Record, after: Record) -> No
 def clear_trips(core: Record, block: Record) -> None:
     """Forget what is latched; the caller has made sure that no cause is present."""
     core.trips = np.uint64(0)
+    core.blocking = np.uint64(0)
     block.first_out = -1

@@ -4,7 +4,7 @@ sample → check → mode → setpoint → law → limit → actuate → publish
 """
 
 from rtcore.channels import TELEMETRY
-from rtcore.check import check_detectors, collect_quantities
+from rtcore.check import check_detectors
 from rtcore.codes import EventKind
 from rtcore.compiled import Record, carray, kernel, pointer
 from rtcore.control.law import closed_loop, open_loop
@@ -13,9 +13,10 @@ from rtcore.memory.playing import publish_playing, see_what_has_come
 from rtcore.memory.rings import next_record_address, publish_event, publish_record
 from rtcore.memory.snapshot import write_snapshot
 from rtcore.modes import Event, Mode, is_closed_loop, is_run
-from rtcore.obey import take_command
+from rtcore.obey import take_command, take_stop
 from rtcore.program.generator import generate, rest
 from rtcore.program.validate import plays_within
+from rtcore.quantities import observe
 from rtcore.sample import take_sample
 from rtcore.supervise import apply_event, progress, react, wanted_supply
 
@@ -44,12 +45,15 @@ def tick(
     take_sample(settings, core.inputs, core.sample)
 
     # check
-    collect_quantities(core, (now_ns - block.app_heartbeat_ns) * 1e-9, missed)
+    silence_s = (now_ns - block.app_heartbeat_ns) * 1e-9
+    unrecorded_s = (block.telemetry_published - block.recorded) * settings.period_s
+    observe(core, gains.valve_limit, silence_s, missed, unrecorded_s)
     action = check_detectors(block.interlocks[block.active_interlocks], core, block, block_address)
 
     # mode
     react(core, block_address, action)
     progress(core, block_address)
+    take_stop(core, block, block_address)
     take_command(core, block, block_address, now_ns)
 
     # setpoint

@@ -33,6 +33,7 @@ def run_ticks(
     block_address: int,
     core_address: int,
     world_address: int,
+    twin_address: int,
     first_tick: int,
     ticks: int,
     app_beats: bool,
@@ -45,7 +46,8 @@ def run_ticks(
         now_ns = (first_tick + k) * block.period_ns
         if app_beats:
             block.app_heartbeat_ns = now_ns
-        cycle(block_address, core_address, world_address, now_ns, 0, 0, 0)
+            block.recorded = block.telemetry_published
+        cycle(block_address, core_address, world_address, twin_address, now_ns, 0, 0, 0)
         if states_address != 0:
             states = carray(pointer(states_address), (ticks, STATES), np.float64)
             states[k, :] = world.y
@@ -54,8 +56,9 @@ def run_ticks(
 class Virtual:
     """A rig and its loop on a virtual clock.
 
-    `gains` is a GAINS record, `interlocks` an INTERLOCKS record. `app_beats` is whether somebody is there to
-    keep the heartbeat; `keep_states` keeps the plant's state at each tick in `states`, (n, STATES) float64.
+    `gains` is a GAINS record, `interlocks` an INTERLOCKS record. `twin` has the twin run beside it, which takes
+    as long again. `app_beats` is whether somebody is there to keep the heartbeat and the record; `keep_states`
+    keeps the plant's state at each tick in `states`, (n, STATES) float64.
     """
 
     def __init__(
@@ -66,9 +69,11 @@ class Virtual:
         seed: int = 1,
         period_s: float = PERIOD_S,
         settings: dict[str, float] | None = None,
+        *,
+        twin: bool = False,
     ) -> None:
         self.block = private_block(round(period_s * 1e9), RING_SECONDS)
-        self.io = SimulatedIo(rig or load_rig(), seed, self.block, settings)
+        self.io = SimulatedIo(rig or load_rig(), seed, self.block, settings, twin=twin)
         self.period_s = period_s
         self.app_beats = True
         self.keep_states = False
@@ -108,10 +113,13 @@ class Virtual:
         self.states = states
         return records
 
-    def command(self, opcode: Opcode, argument: int = 0) -> Reply:
-        """Post a command and run until it is answered."""
+    def command(
+        self, opcode: Opcode, argument: int = 0, value: float = 0.0, lease: int | None = None
+    ) -> Reply:
+        """Post a command and run until it is answered. Without a lease it bears the one in force."""
         now_ns = self.tick * int(self.block.fields["period_ns"])
-        sequence = post(self.block, opcode, argument, now_ns=now_ns)
+        epoch = int(self.block.fields["lease"]) if lease is None else lease
+        sequence = post(self.block, opcode, argument, value=value, lease=epoch, now_ns=now_ns)
         while (answer := acknowledgement(self.block, sequence)) is None:
             self.advance(1)
         return Reply(answer[0])

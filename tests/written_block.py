@@ -36,8 +36,14 @@ class WrittenBlock:
         table = self.block.fields["interlocks"][0]
         table["count"] = len(_DETECTORS)
         for i, (quantity, comparison, action, ticks, threshold) in enumerate(_DETECTORS):
-            row = (quantity, comparison, action, 1, -1, ticks, threshold)
-            table["detectors"][i] = row
+            detector = table["detectors"][i]
+            detector["quantity"], detector["comparison"], detector["action"] = (
+                quantity,
+                comparison,
+                action,
+            )
+            detector["persistence_ticks"], detector["threshold"] = ticks, threshold
+            detector["enabled"], detector["latching"], detector["armed_modes"] = 1, 1, -1
 
     def life(self) -> Life:
         """A fresh view of it, as of an app that has just started."""

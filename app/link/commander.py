@@ -39,16 +39,26 @@ class Commander:
         with self._posting:
             self._life = life
 
-    def ask(self, opcode: Opcode, argument: int = 0) -> Answer | Refusal:
+    def ask(
+        self, opcode: Opcode, argument: int = 0, *, value: float = 0.0, lease: int | None = None
+    ) -> Answer | Refusal:
         """Post a command and wait for the loop's reply. The lock is not held during the wait:
-        a Stop never waits for another command's answer."""
+        a Stop never waits for another command's answer.
+
+        Without a lease it bears the epoch in force: so the console keeps house, never a client.
+        """
         with self._posting:
             life = self._life
             if life is None or not life.alive:
                 return _LOST
             try:
                 sequence = commands.post(
-                    life.block, opcode, argument, time_to_live_s=TIME_TO_LIVE_S
+                    life.block,
+                    opcode,
+                    argument,
+                    value=value,
+                    lease=life.lease if lease is None else lease,
+                    time_to_live_s=TIME_TO_LIVE_S,
                 )
             except commands.CommandsFull:
                 return _SILENT

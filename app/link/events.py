@@ -1,5 +1,6 @@
 """What the loop reports, in words."""
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +11,7 @@ from app.link.words import trip_code, trip_text
 from rtcore.codes import EventKind, Opcode, Reply
 from rtcore.interlocks import Action
 from rtcore.modes import Mode
+from rtcore.rig.faults import Fault
 
 
 @dataclass(frozen=True)
@@ -78,41 +80,86 @@ def _action(detectors: npt.NDArray[Any], index: int) -> int:
     return int(detectors[index]["action"]) if index < len(detectors) else Action.STOP
 
 
-def _words(record: Any, detectors: npt.NDArray[Any], period_ns: int) -> tuple[str, str, str]:
-    """Kind, code and text of an event."""
+_Words = tuple[str, str, str]  # kind, code and text
+
+
+def _words(record: Any, detectors: npt.NDArray[Any], period_ns: int) -> _Words:
     kind, code = EventKind(int(record["kind"])), int(record["code"])
     value, limit = float(record["value"]), float(record["limit"])
-    match kind:
-        case EventKind.MODE:
-            name = Mode(code).name.lower()
-            return "mode", name, name.capitalize()
-        case EventKind.TRIP:
-            if code >= len(detectors):
-                return "trip", f"detector_{code}", f"Detector {code} tripped"
-            detector = detectors[code]
-            return "trip", trip_code(detector), trip_text(detector, value, limit, period_ns)
-        case EventKind.COMMAND:
-            return _command_words(Opcode(code), Reply(int(value)))
-        case EventKind.BLOCK:
-            return "block", str(code), f"Block {code + 1}" if code >= 0 else "Between blocks"
-        case EventKind.PROGRAM_ENDED:
-            return "program_ended", "program_ended", "The test has run to its end"
-        case EventKind.PROGRAM_FAULT:
-            astray, starved = (
-                "The test led beyond the limits",
-                "The test did not reach the loop in time",
-            )
-            text = astray if code else starved
-            return "program_fault", "astray" if code else "starved", text
-        case EventKind.DEADLINES_MISSED:
-            deadlines = "1 deadline" if code == 1 else f"{code} deadlines"
-            text = f"{deadlines} missed, up to {value * 1e-6:.1f} ms late"
-            return "deadlines_missed", "deadlines_missed", text
+    if kind is EventKind.TRIP:
+        return _trip_words(code, value, limit, detectors, period_ns)
+    if kind is EventKind.CLEARED:
+        name = _detector_name(code, detectors)
+        return "cleared", name, f"{_spoken(name)} is content again"
+    return _WORDS[kind](code, value)
 
 
-def _command_words(opcode: Opcode, reply: Reply) -> tuple[str, str, str]:
-    name = opcode.name.lower()
-    spoken = name.replace("_", " ").capitalize()
+def _spoken(name: str) -> str:
+    return name.replace("_", " ").capitalize()
+
+
+def _detector_name(index: int, detectors: npt.NDArray[Any]) -> str:
+    return trip_code(detectors[index]) if index < len(detectors) else f"detector_{index}"
+
+
+def _trip_words(
+    index: int, value: float, limit: float, detectors: npt.NDArray[Any], period_ns: int
+) -> _Words:
+    name = _detector_name(index, detectors)
+    if index >= len(detectors):
+        return "trip", name, f"Detector {index} tripped"
+    return "trip", name, trip_text(detectors[index], value, limit, period_ns)
+
+
+def _mode_words(code: int, _: float) -> _Words:
+    name = Mode(code).name.lower()
+    return "mode", name, name.capitalize()
+
+
+def _block_words(code: int, _: float) -> _Words:
+    return "block", str(code), f"Block {code + 1}" if code >= 0 else "Between blocks"
+
+
+def _program_fault_words(astray: int, _: float) -> _Words:
+    if astray:
+        return "program_fault", "astray", "The test led beyond the limits"
+    return "program_fault", "starved", "The test did not reach the loop in time"
+
+
+def _missed_words(missed: int, latest_ns: float) -> _Words:
+    deadlines = "1 deadline" if missed == 1 else f"{missed} deadlines"
+    text = f"{deadlines} missed, up to {latest_ns * 1e-6:.1f} ms late"
+    return "deadlines_missed", "deadlines_missed", text
+
+
+def _fault_words(kind: int, amount: float) -> _Words:
+    name = Fault(kind).name.lower() if kind in list(Fault) else f"fault_{kind}"
+    done = f"injected, {amount:g}" if amount else "taken away"
+    return "fault", name, f"{_spoken(name)} {done}"
+
+
+def _stop_words(stopped: int, _: float) -> _Words:
+    return "stop_asked", "stop_asked", "Stop" if stopped else "Stop, with nothing to stop"
+
+
+def _command_words(code: int, value: float) -> _Words:
+    reply, name = Reply(int(value)), Opcode(code).name.lower()
     if reply is Reply.ACCEPTED:
-        return "command", name, spoken
-    return "refusal", name, f"{spoken} refused: {reply.name.lower().replace('_', ' ')}"
+        return "command", name, _spoken(name)
+    return "refusal", name, f"{_spoken(name)} refused: {reply.name.lower().replace('_', ' ')}"
+
+
+_WORDS: Mapping[EventKind, Callable[[int, float], _Words]] = {
+    EventKind.MODE: _mode_words,
+    EventKind.COMMAND: _command_words,
+    EventKind.BLOCK: _block_words,
+    EventKind.PROGRAM_ENDED: lambda *_: (
+        *("program_ended", "program_ended"),
+        "The test has run to its end",
+    ),
+    EventKind.PROGRAM_FAULT: _program_fault_words,
+    EventKind.DEADLINES_MISSED: _missed_words,
+    EventKind.LEASE: lambda code, _: ("lease", str(code), f"Command has passed to lease {code}"),
+    EventKind.FAULT: _fault_words,
+    EventKind.STOP_ASKED: _stop_words,
+}

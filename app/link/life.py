@@ -65,6 +65,15 @@ class Life:
         record = self.snapshot()
         return None if record is None else Mode(int(record["mode"]))
 
+    @property
+    def lease(self) -> int:
+        """The epoch that the loop obeys."""
+        return int(self.block.fields["lease"])
+
+    def has_recorded(self, position: int) -> None:
+        """Tell the loop that the records before this one are safe on a disk."""
+        self.block.fields["recorded"] = position
+
     def conditions(self) -> list[dict[str, Any]]:
         """Which real-time conditions the loop had: name, had, reason."""
         conditions: list[dict[str, Any]] = json.loads(self.block.fields["conditions"] or b"[]")

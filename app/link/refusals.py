@@ -14,6 +14,8 @@ _TEXT = {
     Reply.INVALID_BANK: (Code.INVALID_BANK, "the loop found the values invalid"),
     Reply.NO_PROGRAM: (Code.NO_PROGRAM, "the loop has no test to run"),
     Reply.NOT_CONFIGURED: (Code.BUSY, "gains and interlocks are still on their way; try again"),
+    Reply.NOT_AN_EDGE: (Code.BUSY, "it is held down: let go, and press once"),
+    Reply.NOT_SIMULATED: (Code.UNKNOWN_COMMAND, "only a simulated rig takes faults"),
     Reply.BUSY: (Code.BUSY, "the loop is still checking what it was sent; try again"),
 }
 

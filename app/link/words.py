@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from rtcore.interlocks import Comparison, Quantity
+from rtcore.interlocks import Comparison, Quantity, SensorFault
 
 _UNITS = ("_m_s", "_n", "_m", "_pa", "_s")
 
@@ -25,15 +25,36 @@ def _number(scale: float, unit: str, decimals: int = 0) -> Callable[[float], str
     return write
 
 
+def _sensor_fault(value: float) -> str:
+    if value not in list(SensorFault):
+        return "unknown fault"
+    return SensorFault(int(value)).name.lower().replace("_", " ")
+
+
 QUANTITIES: Mapping[Quantity, Words] = {
     Quantity.FORCE_N: Words("Force", _number(1.0, "N")),
     Quantity.FORCE_ERROR_N: Words("Force error", _number(1.0, "N")),
     Quantity.DISPLACEMENT_M: Words("Displacement", _number(1e3, "mm", 1)),
     Quantity.VELOCITY_M_S: Words("Velocity", _number(1.0, "m/s", 2)),
     Quantity.SUPPLY_PRESSURE_PA: Words("Supply pressure", _number(1e-5, "bar")),
-    Quantity.SENSOR_FAULTS: Words("Faulty sensors", _number(1.0, "")),
     Quantity.APP_SILENCE_S: Words("Console silent for", _number(1.0, "s", 2)),
     Quantity.DEADLINES_MISSED: Words("Deadlines missed at once", _number(1.0, "")),
+    Quantity.LOAD_CELL: Words("Load cell", _sensor_fault),
+    Quantity.LVT: Words("LVT", _sensor_fault),
+    Quantity.LVDT: Words("LVDT", _sensor_fault),
+    Quantity.PRESSURE_SENSOR: Words("Supply pressure sensor", _sensor_fault),
+    Quantity.FORCE_ERROR_RELATIVE: Words("Force error of the peak", _number(100.0, "%")),
+    Quantity.UNDERPEAK: Words("Swing short by", _number(100.0, "%")),
+    Quantity.VALVE_COMMAND: Words("Valve command", _number(100.0, "%")),
+    Quantity.VALVE_SATURATION: Words("Valve at its limit for", _number(100.0, "% of the time")),
+    Quantity.CYCLES: Words("Cycles", _number(1.0, "")),
+    Quantity.TWIN_RESIDUAL_N: Words("Force off the virtual rig", _number(1.0, "N")),
+    Quantity.TWIN_GOODNESS: Words("Agreement with the virtual rig", _number(1.0, "%", 1)),
+    Quantity.UNRECORDED_S: Words("Not yet recorded", _number(1.0, "s", 1)),
+    Quantity.CHAIN_OPEN: Words("Hard-wired chain", lambda value: "open" if value else "closed"),
+    Quantity.DISPLACEMENT_ERROR_M: Words("Displacement error", _number(1e3, "mm", 1)),
+    Quantity.PRESSURE_1_PA: Words("Pressure in chamber 1", _number(1e-5, "bar")),
+    Quantity.PRESSURE_2_PA: Words("Pressure in chamber 2", _number(1e-5, "bar")),
 }
 
 

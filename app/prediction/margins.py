@@ -7,8 +7,8 @@ from app.definitions.limits import RIG
 from app.documents.units import unit_of
 from app.interlocks.table import Detector, Interlocks
 from app.prediction.schemas import Margin
-from app.prediction.watch import NOT_PREDICTED, Watch
-from rtcore.interlocks import Comparison, Quantity
+from app.prediction.watch import NOT_PREDICTED, SENSORS, Watch
+from rtcore.interlocks import Comparison
 
 LIVE_ONLY = "Only the live rig can tell"
 NO_FAULTS = "The virtual rig's sensors do not fail of themselves"
@@ -54,7 +54,7 @@ def _note(detector: Detector, extreme: Any) -> str:
     trips = extreme["excess"] > 0
     if detector.quantity in NOT_PREDICTED:
         return LIVE_ONLY
-    if detector.quantity is Quantity.SENSOR_FAULTS and not trips:
+    if detector.quantity in SENSORS and not trips:
         return NO_FAULTS
     if extreme["ever_armed"] == 0:
         return NOT_ARMED

@@ -15,6 +15,7 @@ from app.prediction.schemas import (
     Severity,
     Valve,
 )
+from app.prediction.watch import SENSORS
 from app.recording.outcome import Ending, Outcome
 from rtcore.interlocks import Action, Quantity
 
@@ -69,15 +70,15 @@ def _trips(found: Findings) -> Iterator[Reason]:
         where = _where(margin.block, margin.time_s)
         text = (
             f"{_reached(detector, margin, where)}: the interlock {detector.name}"
-            f" {_DOES[detector.action]}. {_REMEDY[detector.quantity]}"
-        )
+            f" {_DOES[detector.action]}. {_REMEDY.get(detector.quantity, '')}"
+        ).rstrip()
         severity: Severity = "refused" if detector.action >= Action.HOLD else "caution"
         yield _reason("detector_trips", text, severity, margin.block, margin.time_s)
 
 
 def _reached(detector: Detector, margin: Margin, where: str) -> str:
     """`Force would reach 56,000 N in block 2 at 1.20 s, limit 55,000 N`."""
-    if detector.quantity is Quantity.SENSOR_FAULTS:
+    if detector.quantity in SENSORS:
         return f"A sensor would come to the end of its range{where}"
     words = QUANTITIES[detector.quantity]
     reached = "not a number" if margin.extreme is None else words.write(margin.extreme)
@@ -100,9 +101,7 @@ _REMEDY = {
     Quantity.DISPLACEMENT_M: "Ask for less motion there",
     Quantity.VELOCITY_M_S: "Ask for a slower motion there, or for less load at a high frequency",
     Quantity.SUPPLY_PRESSURE_PA: "Ask for less at a time, or raise the supply pressure",
-    Quantity.SENSOR_FAULTS: _GENTLER,
-    Quantity.APP_SILENCE_S: "",
-    Quantity.DEADLINES_MISSED: "",
+    **dict.fromkeys(SENSORS, _GENTLER),
 }
 
 

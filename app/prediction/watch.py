@@ -9,8 +9,16 @@ from app.prediction.watching import TALLY, WATCH, make_extremes, watch_ticks
 from rtcore.interlocks import Quantity
 from rtcore.modes import Mode
 
-# Only a live rig knows these: whether its console is silent, and whether its processor keeps up.
-NOT_PREDICTED = (Quantity.APP_SILENCE_S, Quantity.DEADLINES_MISSED)
+# Only a live rig knows these: its console, its processor, its disk, its chain, and how it differs from its twin.
+NOT_PREDICTED = (
+    Quantity.APP_SILENCE_S,
+    Quantity.DEADLINES_MISSED,
+    Quantity.TWIN_RESIDUAL_N,
+    Quantity.TWIN_GOODNESS,
+    Quantity.UNRECORDED_S,
+    Quantity.CHAIN_OPEN,
+)
+SENSORS = (Quantity.LOAD_CELL, Quantity.LVT, Quantity.LVDT, Quantity.PRESSURE_SENSOR)
 _MODES = (Mode.READY, Mode.RUNNING, Mode.HOLDING, Mode.STOPPING, Mode.TRIPPED)  # that a run meets
 TAIL_S = 2.0  # that a run may last beyond its program
 
@@ -51,7 +59,7 @@ class Watch:
         self._lows, self._ends = np.zeros(room), np.zeros(room, np.int64)
 
     def run_ticks(
-        self, addresses: tuple[int, int, int], first: int, ticks: int, beats: bool, states: int
+        self, addresses: tuple[int, int, int, int], first: int, ticks: int, beats: bool, states: int
     ) -> None:
         """As `rtcore.virtual.run_ticks`."""
         watch_ticks(

@@ -83,6 +83,8 @@ def excess_of(detector: Record, value: float) -> float:
         return float(value - detector.threshold)
     if detector.comparison == Comparison.BELOW:
         return float(detector.threshold - value)
+    if detector.comparison == Comparison.OUTSIDE:
+        return float(max(value - detector.threshold, detector.low - value))
     return float(abs(value) - detector.threshold)
 
 
@@ -114,7 +116,7 @@ def _watch_detectors(
             continue
         e.armed += 1
         e.ever_armed += 1
-        excess = excess_of(d, core.quantities[d.quantity])
+        excess = excess_of(d, core.judged[i])
         if e.room > 1:
             excess = _least_of_stretch(e, lows, ends, excess, w.ticks)
         if e.armed >= e.room and excess > e.excess:
@@ -180,6 +182,7 @@ def watch_ticks(
     block_address: int,
     core_address: int,
     world_address: int,
+    twin_address: int,
     first_tick: int,
     ticks: int,
     app_beats: bool,
@@ -200,7 +203,10 @@ def watch_ticks(
     for k in range(ticks):
         mode, run, block = core.mode, core.run, core.force.block
         place = states_address + 8 * k * len(world.y) if states_address != 0 else 0
-        run_ticks(block_address, core_address, world_address, first_tick + k, 1, app_beats, place)
+        run_ticks(
+            block_address, core_address, world_address, twin_address,
+            first_tick + k, 1, app_beats, place,
+        )  # fmt: skip
         if run != w.run and core.run != w.run:
             continue
         _watch_detectors(

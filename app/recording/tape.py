@@ -73,6 +73,7 @@ class Tape:
             if not self._file(records):
                 break
             self._filed_to = int(records["tick"][-1])
+            self._life.has_recorded(self._life.position_of(self._filed_to + 1))
         self._waiting.extend(self._events.read())
         self._assign_events(self._filed_to)
         self._hand_over()

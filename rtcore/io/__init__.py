@@ -14,6 +14,7 @@ INPUTS = np.dtype(
         ("pressure_1_pa", "f8"),
         ("pressure_2_pa", "f8"),
         ("supply_pressure_pa", "f8"),
+        ("chain", "i8"),  # the hard-wired chain: 1 closed, 0 open
     ],
     align=True,
 )
@@ -27,6 +28,8 @@ OUTPUTS = np.dtype(
     ],
     align=True,
 )
+
+FAULT_SLOTS = 32  # kinds of faults that a simulated rig may be told to have
 
 SUPPLY_OFF, SUPPLY_LOW, SUPPLY_HIGH = 0, 1, 2
 

@@ -30,6 +30,7 @@ def post(
     argument: int = 0,
     *,
     lease: int = 0,
+    value: float = 0.0,
     time_to_live_s: float = 0.5,
     now_ns: int | None = None,
 ) -> int:
@@ -45,6 +46,7 @@ def post(
     slot["opcode"] = opcode
     slot["argument"] = argument
     slot["lease"] = lease
+    slot["value"] = value
     slot["expires_ns"] = (monotonic_ns() if now_ns is None else now_ns) + int(time_to_live_s * 1e9)
     write_index(block.address + _POSTED, sequence + 1)
     return sequence

@@ -7,7 +7,16 @@ import numpy as np
 from rtcore.channels import TELEMETRY
 from rtcore.codes import EventKind, Opcode, Reply
 from rtcore.control.gains import GAINS
-from rtcore.interlocks import INTERLOCKS, Action, Comparison, Quantity
+from rtcore.interlocks import (
+    INTERLOCKS,
+    MAX_DETECTORS,
+    Action,
+    Comparison,
+    Form,
+    Quantity,
+    SensorFault,
+)
+from rtcore.io import FAULT_SLOTS
 from rtcore.modes import Mode
 from rtcore.program.generator import GENERATOR
 from rtcore.program.segments import PROGRAM, Branch, Segment
@@ -25,6 +34,7 @@ COMMAND = np.dtype(
         ("expires_ns", "i8"),  # monotonic clock; refused afterwards
         ("lease", "i8"),  # epoch of the command lease
         ("argument", "i8"),
+        ("value", "f8"),
         ("opcode", "i8"),
     ],
     align=True,
@@ -55,6 +65,8 @@ BLOCK = np.dtype(
         ("_pad0", "i8", (8,)),
         ("app_heartbeat_ns", "i8"),
         ("_pad1", "i8", (8,)),
+        ("stop_asked_ns", "i8"),  # any change of it is a Stop
+        ("recorded", "i8"),  # telemetry records that are safe on a disk
         ("commands_posted", "i8"),
         ("_pad2", "i8", (8,)),
         ("commands_taken", "i8"),
@@ -71,6 +83,12 @@ BLOCK = np.dtype(
         ("playing_force", GENERATOR),
         ("playing_motion", GENERATOR),
         ("first_out", "i8"),  # detector that tripped first since the last reset, -1 for none
+        ("first_out_tick", "i8"),
+        ("lease", "i8"),  # the epoch that commands must bear
+        ("detector_values", "f8", (MAX_DETECTORS,)),  # as judged in the latest tick
+        ("detector_ticks", "i8", (MAX_DETECTORS,)),  # for how long each has been violated
+        ("injected", "f8", (FAULT_SLOTS,)),  # amount of each fault of a simulated rig, 0: none
+        ("twin_force_n", "f8"),
         ("active_gains", "i8"),
         ("active_interlocks", "i8"),
         ("active_program", "i8"),
@@ -89,7 +107,19 @@ BLOCK = np.dtype(
 )
 
 
-_CODES = (Opcode, Reply, EventKind, Mode, Segment, Branch, Quantity, Comparison, Action)
+_CODES = (
+    Opcode,
+    Reply,
+    EventKind,
+    Mode,
+    Segment,
+    Branch,
+    Quantity,
+    Form,
+    Comparison,
+    Action,
+    SensorFault,
+)
 
 
 def _layout_hash() -> int:

@@ -114,6 +114,7 @@ def detector(quantity: Quantity, threshold: float, action: Action, **other: Any)
         "comparison": Comparison.MAGNITUDE_ABOVE,
         "action": action,
         "enabled": 1,
+        "latching": 1,
         "armed_modes": PRESSURISED,
         "persistence_ticks": 1,
         "threshold": threshold,

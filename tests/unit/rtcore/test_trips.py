@@ -64,7 +64,7 @@ def test_a_shutdown_is_safe_in_the_very_tick_of_the_violation(
 
 def test_the_first_of_several_trips_is_kept() -> None:
     late = detector(Quantity.FORCE_N, 100.0, Action.SHUTDOWN, persistence_ticks=3)
-    first = detector(Quantity.FORCE_N, 150.0, Action.INDICATE)
+    first = detector(Quantity.FORCE_N, 150.0, Action.STOP)
     rig = make(late, first)
     rig.bring_to_ready()
     rig.load_program(program(step(2000.0, 1.0)))
@@ -72,6 +72,9 @@ def test_the_first_of_several_trips_is_kept() -> None:
     records = rig.advance(400)
     assert records["trips"][-1] == 0b11
     assert rig.block.fields["first_out"] == 1
+    assert (
+        rig.block.fields["first_out_tick"] == records["tick"][np.argmax(records["trips"] == 0b10)]
+    )
     assert kinds(rig, EventKind.TRIP) == [1, 0]
     assert rig.command(Opcode.RESET) == Reply.ACCEPTED
     assert rig.block.fields["first_out"] == -1
@@ -93,7 +96,7 @@ def test_two_in_one_tick_are_both_kept_and_the_stronger_acts() -> None:
 
 def test_a_reset_is_refused_while_the_cause_is_there() -> None:
     faulty = detector(
-        Quantity.SENSOR_FAULTS, 0.5, Action.SHUTDOWN, comparison=Comparison.ABOVE, armed_modes=0x7F
+        Quantity.LOAD_CELL, 0.5, Action.SHUTDOWN, comparison=Comparison.ABOVE, armed_modes=0x7F
     )
     rig = make(faulty)
     rig.advance(10)
@@ -170,7 +173,7 @@ def test_a_reset_does_not_cut_the_recording_of_a_trip(running: Virtual) -> None:
 
 def test_a_frozen_and_a_saturated_load_cell_are_faults() -> None:
     faulty = detector(
-        Quantity.SENSOR_FAULTS, 0.5, Action.SHUTDOWN, comparison=Comparison.ABOVE, armed_modes=0x7F
+        Quantity.LOAD_CELL, 0.5, Action.SHUTDOWN, comparison=Comparison.ABOVE, armed_modes=0x7F
     )
     rig = make(faulty)
     rig.advance(1000)

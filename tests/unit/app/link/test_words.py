@@ -16,8 +16,9 @@ PERIOD_NS = 250_000
 
 
 def detector(quantity: Quantity, comparison: Comparison, ticks: int = 1) -> np.void:
-    row = (quantity, comparison, Action.STOP, 1, -1, ticks, 0.0)
-    found: np.void = np.array([row], DETECTOR)[0]
+    found: np.void = np.zeros(1, DETECTOR)[0]
+    found["quantity"], found["comparison"], found["action"] = quantity, comparison, Action.STOP
+    found["persistence_ticks"] = ticks
     return found
 
 
