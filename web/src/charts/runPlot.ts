@@ -5,13 +5,12 @@ import type { RunSamples } from "../live/types";
 import { theme } from "../theme.svelte";
 import { quantityOf, TIME, withUnit } from "../units";
 import { bandData, bandExtent, bandFigure, place } from "./bands";
-import type { BandTrace } from "./bandPlot";
 import { colour } from "./colours";
-import { drawForeseen } from "./foreseen";
 import { listen } from "./gestures";
 import type { Readout } from "./livePlot";
 import { drawMarks, type Mark } from "./marks";
 import { axes, line, padding, SCALES } from "./options";
+import { drawLimits, drawOverlay, limitsNear, overlayExtent, type Overlay } from "./overlays";
 import { steadyRange } from "./scale";
 import { colourOf, type ChartInfo, type SeriesInfo } from "./series";
 import type { TimeWindow } from "./zoom";
@@ -33,6 +32,14 @@ export interface RunPlotEvents {
   fits(points: number): void;
 }
 
+/** What is drawn beside the samples. */
+export interface Adornments {
+  readonly marks: readonly Mark[];
+  readonly overlays: readonly Overlay[];
+  /** Values, SI. */
+  readonly limits: readonly number[];
+}
+
 export class RunPlot {
   private plot: uPlot;
   private readonly series: readonly SeriesInfo[];
@@ -40,8 +47,7 @@ export class RunPlot {
   private readonly quantity;
   private samples: RunSamples | null = null;
   private window: TimeWindow = { from_s: 0, to_s: 1 };
-  private marks: readonly Mark[] = [];
-  private foreseen: BandTrace | null = null;
+  private adornments: Adornments = { marks: [], overlays: [], limits: [] };
   private settling = 0;
   private deaf: () => void = () => undefined;
   private readonly ends: (() => void)[];
@@ -76,23 +82,30 @@ export class RunPlot {
     this.draw();
   }
 
-  /** Marks to draw, and the predicted band to draw under what was measured. */
-  adorn(marks: readonly Mark[], foreseen: BandTrace | null): void {
-    this.marks = marks;
-    this.foreseen = foreseen;
-    if (this.samples) this.plot.redraw(false);
+  adorn(adornments: Adornments): void {
+    this.adornments = adornments;
+    this.draw();
   }
 
   private draw(): void {
     const { samples, channels, window: shown } = this;
     if (!samples) return;
-    const { low, high } = bandExtent(samples, channels, shown);
-    const { min, max } = steadyRange(null, low, high, 0, { ...this.info.scale, centred: false });
+    const { min, max } = this.range(samples);
     this.plot.batch((u: uPlot) => {
       u.setData(bandData(samples, channels), false);
       u.setScale("x", { min: shown.from_s, max: shown.to_s });
       u.setScale("y", { min, max });
     });
+  }
+
+  /** Room for the samples, what lies over them, and the limits that are near. */
+  private range(samples: RunSamples): { min: number; max: number } {
+    const measured = bandExtent(samples, this.channels, this.window);
+    const over = overlayExtent(this.adornments.overlays, this.window);
+    const low = Math.min(measured.low, over.low);
+    const high = Math.max(measured.high, over.high);
+    const near = limitsNear(this.adornments.limits, low, high);
+    return steadyRange(null, Math.min(low, ...near), Math.max(high, ...near), 0, { ...this.info.scale, centred: false });
   }
 
   private build(): uPlot {
@@ -122,8 +135,9 @@ export class RunPlot {
       hooks: {
         drawAxes: [
           (plot) => {
-            drawMarks(plot, this.marks);
-            if (this.foreseen) drawForeseen(plot, this.foreseen);
+            drawMarks(plot, this.adornments.marks);
+            drawLimits(plot, this.adornments.limits);
+            for (const overlay of this.adornments.overlays) drawOverlay(plot, overlay);
           },
         ],
         setCursor: [() => this.readOut()],

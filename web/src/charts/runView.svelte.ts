@@ -1,15 +1,23 @@
-// What is seen of one recorded run: the window of time, the channels, and the samples there are for them.
+// What is seen of one recording, a run or a black box: the window of time, the channels, and the samples there are for them.
 
-import { runSamples } from "../live/api";
 import { textOf } from "../live/messages.svelte";
 import type { RunSamples } from "../live/types";
 import { arrived, composed, EMPTY, failed, looked, type Loading, type Request } from "./loading";
-import { grown, shownWindow, whole, type TimeWindow, type ZoomStack } from "./zoom";
+import { grown, shownWindow, type TimeWindow, type ZoomStack } from "./zoom";
 
 const MOST_POINTS = 20_000;
 
+/** Reads a stretch of a recording: the extremes of at most so many columns, or single ticks where they fit. */
+export type ReadSamples = (
+  channels: readonly string[],
+  from_s: number,
+  to_s: number,
+  points: number,
+  signal: AbortSignal,
+) => Promise<RunSamples>;
+
 export class RunView {
-  stack: ZoomStack = $state.raw(whole(1));
+  stack: ZoomStack = $state.raw([{ from_s: 0, to_s: 1 }]);
   samples = $state.raw<RunSamples | null>(null);
   busy = $state(false);
   failure = $state("");
@@ -21,13 +29,12 @@ export class RunView {
   private underWay: { request: Request; abort: AbortController } | null = null;
 
   constructor(
-    private readonly runId: number,
+    private readonly read: ReadSamples,
     readonly period_s: number,
-    duration_s: number,
+    all: TimeWindow,
     window: TimeWindow | null,
   ) {
-    this.stack = whole(duration_s);
-    if (window !== null) this.stack = [...this.stack, window];
+    this.stack = window === null ? [all] : [all, window];
   }
 
   look(stack: ZoomStack | null): void {
@@ -76,7 +83,7 @@ export class RunView {
     this.underWay = { request, abort };
     const { from_s, to_s, points, key } = request;
     try {
-      const samples = await runSamples(this.runId, key.split(","), from_s, to_s, points, abort.signal);
+      const samples = await this.read(key.split(","), from_s, to_s, points, abort.signal);
       if (abort.signal.aborted) return;
       this.underWay = null;
       this.failure = "";

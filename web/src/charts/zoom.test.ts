@@ -16,6 +16,7 @@ import {
 } from "./zoom";
 
 const PERIOD_S = 1 / 4000;
+const RUN = { from_s: 0, to_s: 10 };
 
 describe("zoom", () => {
   it("goes closer and back the same way", () => {
@@ -114,10 +115,12 @@ describe("zoom", () => {
     const query = new URLSearchParams("show=force");
     writeWindow(query, zoomTo(whole(10), { from_s: 2.000250000001, to_s: 2.5 }, PERIOD_S));
     expect(query.toString()).toBe("show=force&from=2.00025&to=2.5");
-    expect(windowOf(query, 10)).toEqual({ from_s: 2.00025, to_s: 2.5 });
+    expect(windowOf(query, RUN)).toEqual({ from_s: 2.00025, to_s: 2.5 });
     writeWindow(query, whole(10));
     expect(query.toString()).toBe("show=force");
     for (const nonsense of ["from=3&to=2", "from=a&to=b", "from=-1&to=2", "from=11&to=12", ""])
-      expect(windowOf(new URLSearchParams(nonsense), 10)).toBeNull();
+      expect(windowOf(new URLSearchParams(nonsense), RUN)).toBeNull();
+    const box = { from_s: -2, to_s: 2 };
+    expect(windowOf(new URLSearchParams("from=-1&to=3"), box)).toEqual({ from_s: -1, to_s: 2 });
   });
 });

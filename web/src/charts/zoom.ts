@@ -117,11 +117,11 @@ function inside(wanted: TimeWindow, limits: TimeWindow, least_s: number): TimeWi
 
 const PLACES = 7; // a tick of 4 kHz is 0.00025 s; more would be noise in the address
 
-/** A window as it stands in the address; null where it stands for none of this run. */
-export function windowOf(query: URLSearchParams, duration_s: number): TimeWindow | null {
+/** A window as it stands in the address; null where it stands for none of this recording. */
+export function windowOf(query: URLSearchParams, all: TimeWindow): TimeWindow | null {
   const [from_s, to_s] = [Number(query.get("from") ?? NaN), Number(query.get("to") ?? NaN)];
-  if (!(from_s < to_s) || from_s < 0 || from_s >= duration_s) return null;
-  return { from_s, to_s: Math.min(to_s, duration_s) };
+  if (!(from_s < to_s) || from_s < all.from_s || from_s >= all.to_s) return null;
+  return { from_s, to_s: Math.min(to_s, all.to_s) };
 }
 
 /** Writes the window into the address; the whole run needs no words. */
