@@ -74,15 +74,17 @@ def passed(lease: Lease, now_s: float) -> Lease:
 
 
 def take(lease: Lease, who: Principal, wish: Wish, now_s: float) -> Lease | Refusal:
-    """Take command where nobody has it, or over from somebody. Who has it already goes on with it."""
+    """Take command where nobody has it, or over from somebody.
+
+    Who has it already gets it anew: two windows of one session are not both in command.
+    """
     held = lease.held
-    if held is not None and held.who.id == who.id:
-        return replace(lease, held=replace(held, reason=wish.reason, ttl_s=wish.ttl_s, seen_s=now_s))
-    if held is not None:
-        refusal = _why_not_over(held, who, wish, now_s)
-        if refusal is not None:
-            return refusal
-    return _given(lease, who, wish, now_s)
+    if held is None:
+        return _given(lease, who, wish, now_s)
+    if held.who.id == who.id:
+        again = replace(held, reason=wish.reason or held.reason, ttl_s=wish.ttl_s, seen_s=now_s)
+        return replace(lease, epoch=lease.epoch + 1, held=again)
+    return _why_not_over(held, who, wish, now_s) or _given(lease, who, wish, now_s)
 
 
 def _why_not_over(held: Held, who: Principal, wish: Wish, now_s: float) -> Refusal | None:
@@ -111,7 +113,7 @@ def request(lease: Lease, who: Principal, reason: str, now_s: float) -> Lease | 
         return refusals.nothing_to_ask_for()
     if lease.held.who.id == who.id:
         return refusals.yours_already()
-    others = _without(lease, lambda request: request.who.id == who.id)
+    others = without_requests_of(lease, who.id)
     if len(others.requests) >= MOST_REQUESTS:
         return refusals.too_many_requests()
     made = Request(lease.asked + 1, who, reason, now_s)
@@ -138,6 +140,11 @@ def decline(lease: Lease, who_id: str, request_id: int, now_s: float) -> Lease |
     return _without(lease, lambda request: request.id == request_id)
 
 
+def without_requests_of(lease: Lease, who_id: str) -> Lease:
+    """The same without what somebody asked for; itself where they did not."""
+    return _without(lease, lambda request: request.who.id == who_id)
+
+
 def check(lease: Lease, who: Principal, epoch: int | None, now_s: float) -> int | Refusal:
     """The epoch that a command of theirs bears, where they are in command."""
     if not lease.is_held_by(who.id):
@@ -154,7 +161,7 @@ def beyond(lease: Lease, epoch: int) -> Lease:
 
 def _given(lease: Lease, who: Principal, wish: Wish, now_s: float) -> Lease:
     held = Held(who, now_s, wish.reason, wish.ttl_s, now_s)
-    others = _without(lease, lambda request: request.who.id == who.id)
+    others = without_requests_of(lease, who.id)
     return replace(others, epoch=lease.epoch + 1, held=held)
 
 

@@ -18,7 +18,9 @@ _BANKS = {
 _filling = Lock()
 
 
-def adopt(life: Life, commander: Commander, opcode: Opcode, record: Any) -> Refusal | None:
+def adopt(
+    life: Life, commander: Commander, opcode: Opcode, record: Any, lease: int | None = None
+) -> Refusal | None:
     """Fill the idle bank with `record`, a scalar of the bank's dtype, and have the loop adopt it.
 
     Returns None where it did.
@@ -28,14 +30,16 @@ def adopt(life: Life, commander: Commander, opcode: Opcode, record: Any) -> Refu
         fields = life.block.fields
         idle = 1 - int(fields[active])
         fields[bank][idle] = record
-        return as_refusal(opcode, commander.ask(opcode, idle))
+        return as_refusal(opcode, commander.ask(opcode, idle, lease=lease))
 
 
-def load(life: Life, commander: Commander, program: Program) -> Feeder | Refusal:
+def load(
+    life: Life, commander: Commander, program: Program, lease: int | None = None
+) -> Feeder | Refusal:
     """Fill the idle bank with a program and have the loop adopt it; the feeder gives what did not fit."""
     with _filling:
         fields = life.block.fields
         idle = 1 - int(fields["active_program"])
         writer = ProgramWriter(fields["programs"][idle], program)
-        answer = commander.ask(Opcode.ADOPT_PROGRAM, idle)
+        answer = commander.ask(Opcode.ADOPT_PROGRAM, idle, lease=lease)
         return as_refusal(Opcode.ADOPT_PROGRAM, answer) or Feeder(life, writer)

@@ -60,34 +60,37 @@ class Link:
             self.commander.turn_to(life)
         self._heard(life)
 
-    def ask(self, opcode: Opcode, argument: int = 0) -> Answer | Refusal:
+    def ask(
+        self, opcode: Opcode, argument: int = 0, *, value: float = 0.0, lease: int | None = None
+    ) -> Answer | Refusal:
         """Give a command. The answer is the loop's acceptance; all else is a refusal.
 
-        A loop that has only just begun may still be waiting for its gains and interlocks: so does this.
+        What a client asks for bears the `lease` of that client; without one it is the console that
+        keeps house. A loop that has only just begun may still be waiting for its gains and interlocks: so does this.
         """
-        answer = self.commander.ask(opcode, argument)
+        answer = self.commander.ask(opcode, argument, value=value, lease=lease)
         deadline = time.monotonic() + _CONFIGURED_S
         while _is_not_configured(answer) and time.monotonic() < deadline:
             time.sleep(0.02)
-            answer = self.commander.ask(opcode, argument)
+            answer = self.commander.ask(opcode, argument, value=value, lease=lease)
         return as_refusal(opcode, answer) or answer
 
-    def adopt(self, opcode: Opcode, record: Any) -> Refusal | None:
-        """Have the loop take over a bank, whole or not at all; None where it did."""
+    def adopt(self, opcode: Opcode, record: Any, lease: int | None = None) -> Refusal | None:
+        """Have the loop take over a bank, whole or not at all; None where it did. `lease` as of `ask`."""
         life = self.life
         if life is None:
             return Refusal(Code.LOOP_LOST, "The loop process does not run")
-        return adopt(life, self.commander, opcode, record)
+        return adopt(life, self.commander, opcode, record, lease)
 
-    def load_program(self, program: Program) -> Refusal | None:
+    def load_program(self, program: Program, lease: int | None = None) -> Refusal | None:
         """Have the loop take over a program, and go on giving what is longer than its bank.
 
-        None where it did; then nothing of the program before it is given any more.
+        `lease` as of `ask`. None where it did; then nothing of the program before it is given any more.
         """
         life = self.life
         if life is None:
             return Refusal(Code.LOOP_LOST, "The loop process does not run")
-        feeder = load(life, self.commander, program)
+        feeder = load(life, self.commander, program, lease)
         if isinstance(feeder, Refusal):
             return feeder
         self._stop_feeding()

@@ -6,7 +6,10 @@ from rtcore.codes import Opcode, Reply
 
 _TEXT = {
     Reply.WRONG_MODE: (Code.WRONG_MODE, "the rig is not in a state for that"),
-    Reply.STALE_LEASE: (Code.STALE_LEASE, "somebody else has taken control"),
+    Reply.STALE_LEASE: (
+        Code.STALE_LEASE,
+        "command has changed hands; look at the rig, then give it again",
+    ),
     Reply.EXPIRED: (Code.EXPIRED, "the command reached the loop too late; give it again"),
     Reply.REPLAYED: (Code.REPLAYED, "the command had been given already"),
     Reply.UNKNOWN: (Code.UNKNOWN_COMMAND, "the loop does not know this command"),
@@ -29,6 +32,7 @@ _SPOKEN = {
     Opcode.ADOPT_INTERLOCKS: "take over the interlocks",
     Opcode.ADOPT_PROGRAM: "load the test",
     Opcode.SHUTDOWN: "shut down",
+    Opcode.TAKE_LEASE: "give you command",
 }
 
 
