@@ -24,6 +24,19 @@ STATUS: Mapping[Code, int] = {
     Code.METHOD_NOT_ALLOWED: 405,
     Code.NOT_SIGNED_IN: 401,
     Code.NOT_ALLOWED: 403,
+    Code.TWO_CREDENTIALS: 400,
+    Code.CSRF: 403,
+    Code.SIGN_IN_FAILED: 401,
+    Code.WRONG_PASSWORD: 403,
+    Code.WEAK_PASSWORD: 422,
+    Code.TOO_MANY_ATTEMPTS: 429,
+    Code.TOO_MANY_REQUESTS: 429,
+    Code.UNKNOWN_USER: 404,
+    Code.USER_EXISTS: 409,
+    Code.LAST_ADMIN: 409,
+    Code.OWN_ACCOUNT: 409,
+    Code.UNKNOWN_TOKEN: 404,
+    Code.UNKNOWN_SESSION: 404,
     Code.FOREIGN_ORIGIN: 403,
     Code.UNKNOWN_HOST: 403,
     Code.TOO_LARGE: 413,
@@ -51,6 +64,7 @@ STATUS: Mapping[Code, int] = {
     Code.UNKNOWN_COMMAND: 422,
     Code.CAUSE_PRESENT: 409,
     Code.INVALID_BANK: 422,
+    Code.INTERLOCKS_WEAKENED: 409,
     Code.NO_PROGRAM: 409,
     Code.BUSY: 409,
     Code.NO_SPACE: 409,
@@ -128,7 +142,16 @@ def problem(refusal: Refusal, status: int | None = None) -> JSONResponse:
         errors=[FaultOut.of(fault) for fault in refusal.faults],
         **more,
     )
-    return JSONResponse(jsonable_encoder(body), body.status, media_type=MEDIA_TYPE)
+    headers = _headers(body.status, more)
+    return JSONResponse(jsonable_encoder(body), body.status, headers, media_type=MEDIA_TYPE)
+
+
+def _headers(status: int, about: Mapping[str, Any]) -> dict[str, str]:
+    """What HTTP wants said in the head too."""
+    headers = {"WWW-Authenticate": "Bearer"} if status == 401 else {}
+    if "retry_after_s" in about:
+        headers["Retry-After"] = str(about["retry_after_s"])
+    return headers
 
 
 def _path(location: tuple[int | str, ...]) -> str:
