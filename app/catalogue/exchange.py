@@ -11,7 +11,14 @@ from app.catalogue import repository
 from app.catalogue.archive import pack
 from app.catalogue.library_index import INDEX, Entry, Index, index_text, read_index
 from app.catalogue.refusals import unknown
-from app.catalogue.saving import Saved, add_revision, enter, is_unchanged
+from app.catalogue.saving import (
+    Saved,
+    add_revision,
+    enter,
+    is_unchanged,
+    set_archived,
+    set_tags,
+)
 from app.catalogue.schemas import Imported, ImportedTest
 from app.catalogue.written import Reader, Written, slug
 from app.db import Database
@@ -148,6 +155,6 @@ def _enter(session: Session, one: _Incoming, author: str) -> ImportedTest:
         action = "revised"
     known = repository.tags_of(session, [test.id]).get(test.id, [])
     if not set(one.tags) <= set(known):
-        repository.set_tags(session, test.id, sorted({*known, *one.tags}))
-    test.archived_at = None  # who imports it wants to have it
+        set_tags(session, test.id, sorted({*known, *one.tags}))
+    set_archived(session, test, False)  # who imports it wants to have it
     return ImportedTest(name=one.name, id=test.id, action=action)

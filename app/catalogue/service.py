@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
@@ -11,7 +10,14 @@ from app.catalogue import repository, shown
 from app.catalogue.models import Test, TestRevision
 from app.catalogue.refusals import archived as is_archived
 from app.catalogue.refusals import conflict, exists, no_longer_valid, unknown, unknown_revision
-from app.catalogue.saving import Saved, add_revision, enter, is_unchanged
+from app.catalogue.saving import (
+    Saved,
+    add_revision,
+    enter,
+    is_unchanged,
+    set_archived,
+    set_tags,
+)
 from app.catalogue.schemas import RevisionSummary, TestAuthor, TestDetail, TestSummary
 from app.catalogue.written import Reader, Written, slug
 from app.db import Database
@@ -127,7 +133,7 @@ class Catalogue:
             if not unchanged:
                 add_revision(session, test, written, saved)
             if saved.tags is not None:
-                repository.set_tags(session, test_id, saved.tags)
+                set_tags(session, test_id, saved.tags)
             return test
 
     def restore_revision(self, test_id: str, number: int, by: TestAuthor) -> Test | Refusal:
@@ -152,8 +158,7 @@ class Catalogue:
             test = repository.to_change(session, test_id)
             if test is None:
                 return unknown(test_id)
-            if archived != (test.archived_at is not None):
-                test.archived_at = datetime.now(UTC) if archived else None
+            set_archived(session, test, archived)
             return test
 
     def set_tags(self, test_id: str, tags: Sequence[str]) -> Test | Refusal:
@@ -162,7 +167,7 @@ class Catalogue:
             test = repository.to_change(session, test_id)
             if test is None:
                 return unknown(test_id)
-            repository.set_tags(session, test_id, tags)
+            set_tags(session, test_id, tags)
             return test
 
     def clone(self, test_id: str, name: str | None, author: str) -> Test | Refusal:

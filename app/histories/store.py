@@ -9,6 +9,7 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+from app.audit.record import Entry, note
 from app.documents.messages import nearest
 from app.documents.refusal import Problem, refuse
 from app.errors import Code, Refusal
@@ -117,6 +118,7 @@ def _imported(
             raw.unlink()
         with suppress(OSError):  # somebody was first: is it the same?
             place.rename(folder / name)
+            note(Entry("histories.import", name, after=HistoryInfo(**dict(about))))
     return _settled(Store(folder), about)
 
 

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
+from app.audit.record import Entry as AuditEntry
+from app.audit.record import record
 from app.catalogue.service import StoredTest
 from app.db import Database
 from app.link.life import Life
@@ -52,6 +54,8 @@ def enter(database: Database, life: Life, frozen: Frozen, entry: Entry) -> tuple
         for column, number in ids.items():
             setattr(run, column, number)
         session.add(run)
+        session.flush()
+        record(session, _told(run, entry.asked))
     return run, [number for number in ids.values() if number > newest]
 
 
@@ -75,3 +79,9 @@ def _row(life: Life, entry: Entry) -> Run:
         missing_ticks=0,
         verdict="unset",
     )
+
+
+def _told(run: Run, asked: RunStart) -> AuditEntry:
+    made = {name: getattr(run, name) for name in ("test_id", "revision", "prediction_verdict")}
+    noted = asked.model_dump(mode="json", include={"operator", "notes", "tags"})
+    return AuditEntry("runs.start", f"run {run.id}", run.override_reason, after={**made, **noted})

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from app.audit.record import Entry, record
 from app.db import Database
 from app.errors import Code, Refusal
 from app.recording.files import parquet_path
@@ -57,8 +58,11 @@ class Runs:
                 return _unknown(run_id)
             if noted.annotation != run.annotation:
                 return _conflict(run, noted.annotation)
+            before = _noted(run)
             if _note(run, noted):
                 run.annotation += 1
+                entry = Entry("runs.annotate", f"run {run_id}", before=before, after=_noted(run))
+                record(session, entry)
                 session.flush()
             return RunDetail.of(run)
 
@@ -92,17 +96,21 @@ class Runs:
 
 def _note(run: Run, noted: RunAnnotation) -> bool:
     """Whether that changed anything."""
-    before = (run.notes, run.operator, list(run.tags))
+    before = _noted(run)
     run.notes = run.notes if noted.notes is None else noted.notes
     run.operator = run.operator if noted.operator is None else noted.operator
-    if noted.tags is not None and list(noted.tags) != before[2]:
+    if noted.tags is not None and list(noted.tags) != before["tags"]:
         kept = {row.tag: row for row in run.tag_rows}
         run.tag_rows = [kept.get(tag) or RunTag(tag=tag) for tag in noted.tags]
-    return before != (run.notes, run.operator, list(run.tags))
+    return before != _noted(run)
+
+
+def _noted(run: Run) -> dict[str, object]:
+    return {"notes": run.notes, "operator": run.operator, "tags": list(run.tags)}
 
 
 def _conflict(run: Run, annotation: int) -> Refusal:
-    now = {"notes": run.notes, "operator": run.operator, "tags": list(run.tags)}
+    now = _noted(run)
     return Refusal(
         Code.EDIT_CONFLICT,
         f"Somebody changed the notes, tags or operator of run {run.id} in the meantime: "

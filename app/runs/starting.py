@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
 
+from app.audit.record import Entry as AuditEntry
+from app.audit.record import note, record
 from app.catalogue.service import Catalogue, StoredTest
 from app.db import Database
 from app.definitions.expansion import expand
@@ -69,7 +71,17 @@ class Starter:
         self._one_at_a_time = Lock()
 
     def start(self, asked: RunStart) -> Run | Refusal:
-        """Run a revision of a test. Returns its row once the loop has begun it."""
+        """Run a revision of a test. Returns its row once the loop has begun it.
+
+        A refused start is in the audit too.
+        """
+        run = self._checked(asked)
+        if isinstance(run, Refusal):
+            told = asked.model_dump(mode="json", exclude_none=True)
+            note(AuditEntry("runs.start", asked.test_id, run.detail, after=told, refused=run.code))
+        return run
+
+    def _checked(self, asked: RunStart) -> Run | Refusal:
         stored = self._needs.catalogue.definition_of(asked.test_id, asked.revision)
         if isinstance(stored, Refusal):
             return stored
@@ -123,6 +135,7 @@ class Starter:
         remove_series(self._runs_dir / str(run.id))
         with self._database.writing() as session:
             session.delete(session.merge(run))
+            record(session, AuditEntry("runs.withdraw", f"run {run.id}", refusal.detail))
             session.flush()
             repository.forget(session, fresh)
         self._unanswered.discard(run.id)

@@ -6,6 +6,7 @@ from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from threading import Lock
 
+from app.audit.record import Entry, record
 from app.db import Database
 from app.errors import Code, Refusal
 from app.recording.files import remove_samples
@@ -54,10 +55,12 @@ class Retainer:
                     f"{row.revision}, this change was made from {change.based_on}. Look at it again"
                 )
                 return Refusal(Code.EDIT_CONFLICT, detail)
+            before = _limits(_shown(row))
             row.keep_days, row.keep_bytes = change.keep_days, change.keep_bytes
             row.keep_tags = list(dict.fromkeys(change.keep_tags))
             row.revision += 1
             rule = _shown(row)
+            record(session, Entry("storage.rule", "retention", before=before, after=_limits(rule)))
         _log.info("retention: rule %d: %s", rule.revision, _in_words(rule))
         if change.apply:
             self.apply()
@@ -71,6 +74,9 @@ class Retainer:
             with self._database.writing() as session:
                 repository.mark_removed(session, [run.id for run in runs], self._now())
                 repository.retention(session).applied_at = self._now()
+                if runs:
+                    removed = [run.model_dump(include={"id", "bytes", "reason"}) for run in runs]
+                    record(session, Entry("storage.remove_samples", "runs", after=removed))
             for run in runs:
                 remove_samples(self._runs_dir / str(run.id))
                 _log.info("retention: run %d: %d bytes removed, %s", run.id, run.bytes, run.reason)
