@@ -12,6 +12,8 @@ cli = typer.Typer(
 )
 database = typer.Typer(help="The database of the console.", no_args_is_help=True)
 cli.add_typer(database, name="db")
+audit = typer.Typer(help="Who did what, when and why.", no_args_is_help=True)
+cli.add_typer(audit, name="audit")
 
 Test = Annotated[str, typer.Argument(help="A YAML or JSON file, or the id of a library test.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON document on standard output.")]
@@ -122,6 +124,35 @@ def upgrade(data: Data = None) -> None:
     from app.settings import Settings
 
     run(Settings().data_dir if data is None else data)
+
+
+@audit.command()
+def verify(data: Data = None, json: Json = False) -> None:
+    """Check that every row of the audit is as it was entered, and none is gone.
+
+    Ends with 0 intact, 1 broken, 2 nothing to check.
+    """
+    from app.commands.audit import verify as run
+
+    raise typer.Exit(run(data, json))
+
+
+@audit.command("list")
+def list_audit(
+    data: Data = None,
+    who: Annotated[str | None, typer.Option(help="The name of who did it.")] = None,
+    action: Annotated[str | None, typer.Option(help="Or its beginning: tests")] = None,
+    target: Annotated[str | None, typer.Option(help="What it was done to.")] = None,
+    search: Annotated[str, typer.Option(help="Beginnings of words.")] = "",
+    limit: Annotated[int, typer.Option(min=1, max=100_000)] = 50,
+    json: Json = False,
+) -> None:
+    """Print the newest entries of the audit, the newest first."""
+    from app.audit.sought import Sought
+    from app.commands.audit import list_entries as run
+
+    sought = Sought(who=who, action=action, target=target, search=search)
+    raise typer.Exit(run(data, sought, limit, json))
 
 
 def main() -> None:
