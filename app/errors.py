@@ -41,6 +41,7 @@ class Code(StrEnum):
     INVALID_HISTORY = "invalid_history"
     HISTORY_EXISTS = "history_exists"
     UNKNOWN_RUN = "unknown_run"
+    UNKNOWN_FIRST_OUT = "unknown_first_out"
     UNKNOWN_CHANNEL = "unknown_channel"
     INVALID_TEST = "invalid_test"
     RUN_UNDER_WAY = "run_under_way"
