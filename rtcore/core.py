@@ -138,7 +138,7 @@ def make_core(period_s: float, settings: dict[str, float]) -> npt.NDArray[Any]:
         "pressure_range_pa": 40e6,
         "pressure_offset_pa": 0.2e6,
         "area_m2": 2.592e-3,
-        "force_implausible_n": 8e3,
+        "force_implausible_n": 5e3,
         "velocity_implausible_m_s": 0.1,
         "implausible_ticks": ticks(1e-3),
         "force_limit_n": 50e3,

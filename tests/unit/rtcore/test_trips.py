@@ -183,5 +183,5 @@ def test_a_frozen_and_a_saturated_load_cell_are_faults() -> None:
     assert np.argmax(records["trips"] != 0) == pytest.approx(200, abs=20)
 
     rig = make(faulty)
-    rig.io.core["settings"]["force_range_n"] = 1.0
+    rig.io.core["sample"]["force"]["range"] = 1.0
     assert rig.advance(10)["trips"][-1] == 1
