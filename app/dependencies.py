@@ -19,6 +19,7 @@ from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.runs.starting import Starter
 from app.storage.service import Storage
+from app.system.service import System
 from app.wiring import Console
 
 
@@ -74,6 +75,10 @@ def _storage(this: ThisConsole) -> Storage:
     return this.storage
 
 
+def _system(this: ThisConsole) -> System:
+    return this.system
+
+
 def _predictions(this: ThisConsole) -> Predictions:
     return this.predictions
 
@@ -97,6 +102,7 @@ RunsService = Annotated[Runs, Depends(_runs)]
 ResultsService = Annotated[Results, Depends(_results)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
 StorageService = Annotated[Storage, Depends(_storage)]
+SystemService = Annotated[System, Depends(_system)]
 PredictionsService = Annotated[Predictions, Depends(_predictions)]
 RunPredictionsService = Annotated[RunPredictions, Depends(_run_predictions)]
 StarterService = Annotated[Starter, Depends(_starter)]

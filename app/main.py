@@ -45,6 +45,7 @@ from app.serving import (
 from app.settings import VERSION, Settings
 from app.static_files import serve_console
 from app.storage.router import router as storage_router
+from app.system.router import router as system_router
 from app.wiring import Console
 
 _LONGEST_FRAME = 16_384  # of a browser's WebSocket message
@@ -95,6 +96,7 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         predicted_router,
         storage_router,
         audit_router,
+        system_router,
         live_router,
     ):
         app.include_router(router)

@@ -37,6 +37,7 @@ from app.runs.starting import Needs, Starter
 from app.settings import Settings
 from app.storage.service import Storage, StorageSettings
 from app.storage.watcher import Watcher
+from app.system.service import System
 from rtcore.codes import Opcode
 
 _log = logging.getLogger(__name__)
@@ -93,6 +94,9 @@ class Console:
             self.database, settings.runs_dir, self.link, self.recorder, frozen, plans, needs
         )
         self.broadcaster = Broadcaster(lambda: self.link.life, self.status.read)
+        self.system = System(
+            self.database, settings.data_dir, lambda: self.link.life, self.broadcaster.clients
+        )
         self.command_threads = ThreadPoolExecutor(8, thread_name_prefix="commands")
 
     def open(self) -> None:

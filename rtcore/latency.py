@@ -18,6 +18,7 @@ from rtcore.memory.segment import Block, private_block
 from rtcore.realtime import Condition, take_all
 
 Counts = npt.NDArray[np.int64]
+BIN_S = HISTOGRAM_BIN_S
 RANGE_US = HISTOGRAM_BINS - 1  # what is longer lies in the last bin
 
 

@@ -48,6 +48,10 @@ class Broadcaster:
         """Send to this client no more."""
         self._clients.discard(client)
 
+    def clients(self) -> int:
+        """How many there are."""
+        return len(self._clients)
+
     def runs_changed(self) -> None:
         """Tell everybody that the list of runs has changed. From any thread."""
         self._runs_changed = True
