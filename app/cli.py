@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from app.cli_access import tokens, users
+
 cli = typer.Typer(
     help="Operator console of a servo-hydraulic force-control test rig.",
     no_args_is_help=True,
@@ -12,6 +14,8 @@ cli = typer.Typer(
 )
 database = typer.Typer(help="The database of the console.", no_args_is_help=True)
 cli.add_typer(database, name="db")
+cli.add_typer(users, name="user")
+cli.add_typer(tokens, name="token")
 audit = typer.Typer(help="Who did what, when and why.", no_args_is_help=True)
 cli.add_typer(audit, name="audit")
 
@@ -60,11 +64,21 @@ def simulate(
 
 
 @cli.command()
-def serve(host: Host = None, port: Port = None, data: Data = None) -> None:
+def serve(
+    host: Host = None,
+    port: Port = None,
+    data: Data = None,
+    tls_cert: Annotated[Path | None, typer.Option(help="Certificate (PEM): HTTPS.")] = None,
+    tls_key: Annotated[Path | None, typer.Option(help="Its key (PEM).")] = None,
+    plain_http: Annotated[
+        bool, typer.Option("--plain-http", help="Without TLS, where other machines reach it.")
+    ] = False,
+) -> None:
     """Start the console and the loop. What is not given may come from FORCERIG_HOST and so on."""
     from app.main import serve as run
 
-    run(host, port, data)
+    given = {"tls_cert": tls_cert, "tls_key": tls_key, "plain_http": plain_http or None}
+    run(host, port, data, **given)
 
 
 @cli.command()

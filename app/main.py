@@ -13,6 +13,12 @@ from anyio.to_thread import run_sync
 from fastapi import FastAPI
 from fastapi.responses import HTMLResponse
 
+from app.access.credentials_router import router as credentials_router
+from app.access.door import Door
+from app.access.pace import Paced
+from app.access.router import router as auth_router
+from app.access.sign_in_page import router as sign_in_router
+from app.access.users_router import router as users_router
 from app.audit.router import router as audit_router
 from app.body_limit import BodyLimit
 from app.catalogue.router import router as tests_router
@@ -20,6 +26,7 @@ from app.catalogue.texts_router import router as texts_router
 from app.described import Described
 from app.docs_page import docs_page
 from app.errors import Refusal
+from app.first_outs.router import router as first_outs_router
 from app.health import router as health_router
 from app.histories.router import router as histories_router
 from app.live.router import router as live_router
@@ -37,6 +44,7 @@ from app.serving import (
     CannotServe,
     bind,
     check,
+    check_exposure,
     go_before_other_work,
     hold_data_folder,
     hold_database,
@@ -49,16 +57,17 @@ from app.system.router import router as system_router
 from app.wiring import Console
 
 _LONGEST_FRAME = 16_384  # of a browser's WebSocket message
+_STOPS = frozenset({"/api/v1/rig/commands"})
 _BODY_LIMITS = {
     "/api/v1/tests/import": 100_000_000,
     "/api/v1/histories": None,  # goes to the disk as it comes
 }
 
 
-def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
+def create_app(settings: Settings, presets: Presets | None = None, url: str = "/") -> FastAPI:
     """The application. Its life is that of the console: it starts the loop and ends it.
 
-    Without presets it can be described, not run.
+    Without presets it can be described, not run. `url` is where browsers find it.
     """
 
     @asynccontextmanager
@@ -66,6 +75,7 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         assert presets is not None
         console = app.state.console = Console(settings, presets)
         await run_sync(console.open)
+        await run_sync(_invite, console, url)
         console.broadcaster.start()
         yield
         await console.broadcaster.stop()
@@ -81,6 +91,8 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
     )
     app.add_middleware(NoNul)
     app.add_middleware(BodyLimit, limits=_BODY_LIMITS)
+    app.add_middleware(Door)
+    app.add_middleware(Paced, never=_STOPS)
     app.add_middleware(Guard, hosts=known_hosts(settings.allowed_hosts))
     install_handlers(app)
     for router in (
@@ -95,9 +107,14 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
         results_router,
         predicted_router,
         storage_router,
+        first_outs_router,
         audit_router,
         system_router,
         live_router,
+        auth_router,
+        users_router,
+        credentials_router,
+        sign_in_router,
     ):
         app.include_router(router)
 
@@ -110,13 +127,25 @@ def create_app(settings: Settings, presets: Presets | None = None) -> FastAPI:
     return app
 
 
-def serve(host: str | None = None, port: int | None = None, data_dir: Path | None = None) -> None:
+def _invite(console: Console, url: str) -> None:
+    """Say how to come in, as long as no admin has a password."""
+    link = console.access.users.first_link()
+    if link is not None:
+        print(f"Sign in once with: {url.rstrip('/')}{link.path}", flush=True)
+
+
+def serve(
+    host: str | None = None,
+    port: int | None = None,
+    data_dir: Path | None = None,
+    **more: Path | bool | None,
+) -> None:
     """Run the console until SIGTERM or SIGINT. Raises `SystemExit` with 2 where it cannot start.
 
-    What is not given comes from the environment, or is as shipped. Port 0 takes any free port; the
-    address is printed either way.
+    What is not given comes from the environment, or is as shipped; `more` are other settings by their
+    names. Port 0 takes any free port; the address is printed either way.
     """
-    given: dict[str, Any] = {"host": host, "port": port, "data_dir": data_dir}
+    given: dict[str, Any] = {"host": host, "port": port, "data_dir": data_dir, **more}
     settings = Settings(**{name: value for name, value in given.items() if value is not None})
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)-7s %(message)s")
     for chatty in ("uvicorn.error", "alembic"):
@@ -125,6 +154,7 @@ def serve(host: str | None = None, port: int | None = None, data_dir: Path | Non
         # Uvicorn has its own handlers while it runs, and raises what it caught again afterwards.
         signal.signal(number, lambda *_: None)
     try:
+        check_exposure(settings)
         with (
             hold_data_folder(settings.data_dir),
             hold_database(settings.database_address),
@@ -135,16 +165,19 @@ def serve(host: str | None = None, port: int | None = None, data_dir: Path | Non
             presets = load_presets(settings)
             if isinstance(presets, Refusal):
                 raise CannotServe(presets.detail)
-            print(f"forcerig console: {url_of(listener)}", flush=True)
-            uvicorn.Server(_uvicorn_config(settings, presets)).run(sockets=[listener])
+            url = url_of(listener, tls=settings.tls_cert is not None)
+            print(f"forcerig console: {url}", flush=True)
+            uvicorn.Server(_uvicorn_config(settings, presets, url)).run(sockets=[listener])
     except CannotServe as error:
         print(f"forcerig: {error}", file=sys.stderr, flush=True)
         raise SystemExit(2) from None
 
 
-def _uvicorn_config(settings: Settings, presets: Presets) -> uvicorn.Config:
+def _uvicorn_config(settings: Settings, presets: Presets, url: str) -> uvicorn.Config:
     return uvicorn.Config(
-        create_app(settings, presets),
+        create_app(settings, presets, url),
+        ssl_certfile=settings.tls_cert,
+        ssl_keyfile=settings.tls_key,
         http="h11",  # it bounds the head of a request; httptools would read one without end
         log_config=None,
         access_log=False,

@@ -31,7 +31,11 @@ _HEADERS = {
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), display-capture=(), geolocation=(), microphone=(), "
+    "payment=(), serial=(), usb=()",
 }
+_UNDER_TLS = {"Strict-Transport-Security": "max-age=31536000"}
+_OF_PERSONS = {"Cache-Control": "no-store"}  # what one user may read is not kept for the next
 
 
 def known_hosts(configured: Iterable[str]) -> frozenset[str]:
@@ -99,14 +103,20 @@ class Guard:
                 await send({"type": "websocket.close", "code": 1008, "reason": refusal.detail})
             return
         app = self._app if refusal is None else problem(refusal)
-        await app(scope, receive, _with_headers(send))
+        await app(scope, receive, _with_headers(send, _headers_for(scope)))
 
 
-def _with_headers(send: Send) -> Send:
+def _headers_for(scope: Scope) -> dict[str, str]:
+    of_persons = scope["path"].startswith(("/api/", "/sign-in"))
+    tls = scope.get("scheme") == "https"
+    return _HEADERS | (_UNDER_TLS if tls else {}) | (_OF_PERSONS if of_persons else {})
+
+
+def _with_headers(send: Send, wanted: dict[str, str]) -> Send:
     async def wrapped(message: Message) -> None:
         if message["type"] == "http.response.start":
             headers = MutableHeaders(scope=message)
-            for name, value in _HEADERS.items():
+            for name, value in wanted.items():
                 headers.setdefault(name, value)
         await send(message)
 

@@ -5,8 +5,10 @@ import fcntl
 import logging
 import os
 import socket
+import ssl
 from collections.abc import Iterator
 from contextlib import contextmanager
+from ipaddress import ip_address
 from pathlib import Path
 
 from sqlalchemy import func, make_url, select
@@ -103,6 +105,42 @@ def check(settings: Settings) -> None:
         raise CannotServe(str(error)) from error
 
 
+def check_exposure(settings: Settings) -> None:
+    """That nobody's password goes over a network in clear, unless somebody said so in words."""
+    if (settings.tls_cert is None) != (settings.tls_key is None):
+        raise CannotServe("TLS needs both: give --tls-cert and --tls-key")
+    if settings.tls_cert is not None and settings.tls_key is not None:
+        _check_certificate(settings.tls_cert, settings.tls_key)
+    elif not settings.plain_http and not _only_this_machine(settings.host):
+        raise CannotServe(
+            f"--host {settings.host} is reached from other machines, and passwords would go there "
+            "in clear: give --tls-cert and --tls-key, or say --plain-http where the network is trusted"
+        )
+
+
+def _check_certificate(certificate: Path, key: Path) -> None:
+    for file in (certificate, key):
+        if not os.access(file, os.R_OK):
+            raise CannotServe(f"cannot read {file}, which TLS needs")
+    try:
+        # A key with a password would be asked for on a terminal that may not be there.
+        context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        context.load_cert_chain(certificate, key, password=lambda: "")
+    except (ssl.SSLError, OSError) as error:
+        raise CannotServe(
+            f"{certificate} and {key} are no certificate (PEM) with its key without a password: "
+            f"{error}"
+        ) from None
+
+
+def _only_this_machine(host: str) -> bool:
+    try:
+        found = socket.getaddrinfo(host, None, type=socket.SOCK_STREAM)
+    except socket.gaierror:
+        return True  # `bind` says what is wrong with it
+    return all(ip_address(address[0]).is_loopback for *_, address in found)
+
+
 @contextmanager
 def bind(host: str, port: int) -> Iterator[socket.socket]:
     """A socket that listens there. Port 0 takes any free port."""
@@ -131,9 +169,10 @@ def _why_not_bound(host: str, port: int, error: OSError) -> str:
     return f"cannot listen on {host}:{port}: {os.strerror(error.errno or 0)}"
 
 
-def url_of(listener: socket.socket) -> str:
+def url_of(listener: socket.socket, *, tls: bool = False) -> str:
     """The address to open in a browser."""
+    scheme = "https" if tls else "http"
     host, port = listener.getsockname()[:2]
     if host in ("0.0.0.0", "::"):
         host = "localhost"
-    return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+    return f"{scheme}://[{host}]:{port}/" if ":" in host else f"{scheme}://{host}:{port}/"

@@ -19,6 +19,9 @@ class Settings(BaseSettings):
     port: Annotated[int, Field(ge=0, le=65535)] = 8000  # 0: any free one
     data_dir: Path = Path("data")
     database_url: str | None = None  # None: SQLite in the data directory
+    tls_cert: Path | None = None  # with its key: the console speaks HTTPS
+    tls_key: Path | None = None
+    plain_http: bool = False  # without TLS, even where other machines reach it
     allowed_hosts: tuple[str, ...] = ()  # names besides localhost under which browsers come
     rig_file: Path | None = None  # None: the rig of the paper
     controller_file: Path | None = None  # None: as shipped, as for the interlocks
@@ -37,6 +40,11 @@ class Settings(BaseSettings):
     def runs_dir(self) -> Path:
         """Where the samples of the runs are kept, a folder a run."""
         return self.data_dir.resolve() / "runs"
+
+    @property
+    def first_outs_dir(self) -> Path:
+        """Where the black boxes of the first-outs are kept, a folder each."""
+        return self.data_dir.resolve() / "first-outs"
 
     @property
     def histories_dir(self) -> Path:

@@ -4,6 +4,7 @@ import logging
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
+from app.access.service import Access
 from app.audit.service import Audit
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
@@ -12,8 +13,13 @@ from app.catalogue.written import Reader
 from app.controller.record import to_record as gains_record
 from app.db import Database
 from app.definitions.limits import RIG
+from app.first_outs.book import Book
+from app.first_outs.box import InForce
+from app.first_outs.keeper import Keeper
+from app.first_outs.service import FirstOuts
 from app.histories.store import Store
 from app.interlocks.record import to_record as interlocks_record
+from app.link.life import Life
 from app.link.link import Link
 from app.link.paths import block_path
 from app.link.process import LoopCommand
@@ -56,13 +62,18 @@ class Console:
         )
         self.database = Database(settings.database_address)
         self.audit = Audit(self.database, settings.data_dir)
+        self.access = Access(self.database)
         self.histories = Store(settings.histories_dir)
         measuring = partial(measure, histories=self.histories)
         ledger = Ledger(self.database, settings.runs_dir, measuring, self._runs_changed)
         self._clerk = Clerk(settings.runs_dir, ledger)
         self.recorder = Recorder(settings.runs_dir, self._clerk)
         block = block_path(settings.data_dir)
-        self.link = Link(LoopCommand.of(settings, block), self.recorder.follow, self._configure)
+        self.link = Link(LoopCommand.of(settings, block), self._follow, self._configure)
+        self._keeper = Keeper(Book(self.database, settings.first_outs_dir), self._in_force)
+        self.first_outs = FirstOuts(
+            self.database, settings.first_outs_dir, lambda: self._keeper.trouble
+        )
         self._plans = plans = Plans()
         kept = StorageSettings(settings.runs_dir, RIG.period_s, settings.reserve_bytes)
         self.storage = Storage(kept, self.database, self.recorder.state)
@@ -106,6 +117,7 @@ class Console:
         """
         self.settings.runs_dir.mkdir(parents=True, exist_ok=True)
         self.database.upgrade()
+        self.access.open()
         self.audit.open()
         enter_shipped(self.database, self.catalogue.reader)
         self._plans.recall(self.database)
@@ -115,6 +127,7 @@ class Console:
         sweep(self.settings.runs_dir, self._clerk)
         close_orphans(self.settings.runs_dir, self._clerk, life.name if life else None)
         self.recorder.start()
+        self._keeper.start()
         self.predictions.warm_up()
         self.storage.retention.finish_removing()
         self._watcher.start()
@@ -125,12 +138,26 @@ class Console:
         self._watcher.close()
         self.link.take_load_off()
         self.link.end_loop()
+        self._keeper.stop()
         self.recorder.stop()
         self._clerk.stop()
         self.link.forget()
         self.command_threads.shutdown()
         self.audit.close()
+        self.access.close()
         self.database.close()
+
+    def _follow(self, life: Life) -> None:
+        """A loop has come up, or was found: what it does is recorded, and what trips it is kept."""
+        self.recorder.follow(life)
+        self._keeper.follow(life)
+
+    def _in_force(self) -> InForce:
+        """What a first-out is kept with."""
+        presets = self._presets
+        return InForce(
+            presets.controller, presets.interlocks, presets.rig, self.settings.seed, lease=None
+        )
 
     def _runs_changed(self) -> None:
         self.broadcaster.runs_changed()

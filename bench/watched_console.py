@@ -19,7 +19,12 @@ import httpx2
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
+from app.access.schemas import TokenCreate
+from app.access.scopes import Scope
+from app.commands.tokens import make_token
+from app.errors import Refusal
 from app.interlocks.defaults import default_interlocks
+from app.settings import Settings
 from bench.report import progress
 
 PATIENCE_S = 120.0
@@ -53,7 +58,7 @@ def measure(minutes: float) -> Watched:
         _make_ready(api)
         run_id = _start(api, minutes * 60.0)
         stop = Event()
-        client = Thread(target=_watch, args=(str(api.base_url), found, stop), daemon=True)
+        client = Thread(target=_watch, args=(api, found, stop), daemon=True)
         client.start()
         _look_on(api, run_id, data, found)
         stop.set()
@@ -75,6 +80,7 @@ def _console(folder: str) -> Iterator[httpx2.Client]:
         "FORCERIG_DATA_DIR": str(Path(folder) / "data"),
         "FORCERIG_INTERLOCKS_FILE": str(table),
     }
+    token = _token(Path(folder) / "data")
     log = Path(folder) / "console.log"
     with log.open("ab") as out:
         process = subprocess.Popen(
@@ -83,11 +89,20 @@ def _console(folder: str) -> Iterator[httpx2.Client]:
     try:
         found = _until(lambda: re.search(r"forcerig console: (\S+)/\n", log.read_text()), "address")
         with httpx2.Client(base_url=f"{found.group(1)}/api/v1", timeout=60) as api:
+            api.headers["Authorization"] = f"Bearer {token}"
             api.headers["X-Process"] = str(process.pid)
             yield api
     finally:
         process.terminate()
         process.wait(60)
+
+
+def _token(data: Path) -> str:
+    asked = TokenCreate(name="benchmark", scope=Scope.ADMIN, expires_in_days=1)
+    made = make_token(Settings(data_dir=data), "admin", asked)
+    if isinstance(made, Refusal):
+        raise RuntimeError(made.detail)
+    return made.token
 
 
 def _until(condition: Callable[[], Any], what: str) -> Any:
@@ -141,10 +156,11 @@ def _start(api: httpx2.Client, duration_s: float) -> int:
     return int(api.post("/runs", json=asked).raise_for_status().json()["id"])
 
 
-def _watch(base_url: str, found: Watched, stop: Event) -> None:
+def _watch(api: httpx2.Client, found: Watched, stop: Event) -> None:
     """What a browser does: five channels, every tick."""
-    url = base_url.replace("http", "ws").rstrip("/") + "/live"
-    with connect(url, max_size=None) as stream:
+    url = str(api.base_url).replace("http", "ws").rstrip("/") + "/live"
+    credentials = {"Authorization": api.headers["Authorization"]}
+    with connect(url, max_size=None, additional_headers=credentials) as stream:
         wanted = {"type": "subscribe", "subscription": 1, "channels": WATCHED}
         stream.send(json.dumps(wanted))
         while not stop.is_set():

@@ -2,8 +2,10 @@
 
 from alembic import context
 
+import app.access.models
 import app.audit.models
 import app.catalogue.models
+import app.first_outs.models
 import app.interlocks.models
 import app.runs.models
 import app.storage.models  # noqa: F401

@@ -14,8 +14,17 @@ from typing import Any, cast
 
 import httpx2
 
+from app.access.principal import Role
+from app.access.schemas import RoleWord, TokenCreate, UserCreate
+from app.access.scopes import scope_of
+from app.access.tokens import Tokens
+from app.access.users import Users
+from app.commands.access import on_database
+from app.commands.tokens import make_token
+from app.errors import Code, Refusal
 from app.interlocks.defaults import default_interlocks
 from app.link.paths import block_path
+from app.settings import Settings
 from rtcore.memory.segment import attach_block, loop_is_running
 
 PATIENCE_S = 110.0  # a cold start compiles the loop's kernels
@@ -42,6 +51,11 @@ def patient_interlocks(folder: Path) -> Path:
     return path
 
 
+def bearer(token: str) -> dict[str, str]:
+    """The header that bears a token."""
+    return {"Authorization": f"Bearer {token}"}
+
+
 # The console that the tests of a folder share: it ends with the last of them.
 OF_FOLDER: dict[Path, "ConsoleProcess"] = {}
 
@@ -64,9 +78,11 @@ class ConsoleProcess:
         self.database_url = database_url or f"sqlite:///{self.data / 'forcerig.sqlite'}"
         self._process: subprocess.Popen[bytes] | None = None
         self.url = ""
+        self.token = ""  # of an admin; a console that starts again knows it
 
     def start(self, *, wait: bool = True) -> "ConsoleProcess":
         """Start it, and wait until its loop is there."""
+        self.token = self.token or self.new_token()
         already_said = len(self.said())
         with self._log.open("ab") as log:
             self._process = subprocess.Popen(
@@ -77,11 +93,54 @@ class ConsoleProcess:
             lambda: self._lives() and pattern.search(self.said(), already_said), "its address"
         )
         self.url = found.group(1)
-        self.http = httpx2.Client(base_url=f"{self.url}/api/v1", timeout=30)
+        self.http = self.client(self.token)
         wait_for(self.answers, "an answer")
         if wait:
             wait_for(lambda: self.status()["loop"]["alive"], "a living loop")
         return self
+
+    @property
+    def headers(self) -> dict[str, str]:
+        """What shows that it is the tests that ask: for a WebSocket, say."""
+        return bearer(self.token)
+
+    def client(self, token: str | None = None) -> httpx2.Client:
+        """Somebody who asks, with this token or with nothing."""
+        headers = {} if token is None else bearer(token)
+        return httpx2.Client(base_url=f"{self.url}/api/v1", timeout=30, headers=headers)
+
+    def as_role(self, role: Role) -> httpx2.Client:
+        """Somebody of this role."""
+        return self.client(self.new_token(role))
+
+    def new_token(self, role: Role = Role.ADMIN) -> str:
+        """A token as `forcerig token create` makes it, for a user of that role."""
+        settings, owner = self._settings(), role.word
+        if role is not Role.ADMIN:
+            asked = UserCreate(name=owner, role=RoleWord(owner))
+            found = on_database(settings, lambda users, _: users.add(asked))
+            assert not isinstance(found, Refusal) or found.code is Code.USER_EXISTS
+        wanted = TokenCreate(name="tests", scope=scope_of(role), expires_in_days=1)
+        made = make_token(settings, owner, wanted)
+        assert not isinstance(made, Refusal), made
+        return made.token
+
+    def new_link(self, name: str = "admin") -> str:
+        """A path that signs a user in once, as `forcerig user link` makes it."""
+
+        def work(users: Users, _: Tokens) -> str:
+            number = users.number_of(name)
+            assert isinstance(number, int), number
+            made = users.link(number)
+            assert not isinstance(made, Refusal), made
+            return made.path
+
+        path = on_database(self._settings(), work)
+        assert isinstance(path, str), path
+        return path
+
+    def _settings(self) -> Settings:
+        return Settings(data_dir=self.data, database_url=self.database_url)
 
     def said(self) -> str:
         """Everything that it has logged."""

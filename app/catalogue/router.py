@@ -4,6 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Header, Path, Query, Response
 
+from app.access.dependencies import Operator, Viewer
 from app.catalogue import texts
 from app.catalogue.differences import difference_of
 from app.catalogue.saving import Saved
@@ -31,6 +32,7 @@ IfMatch = Annotated[str | None, Header(description='the revision it was made fro
 
 @router.get("", operation_id="listTests")
 def list_tests(
+    who: Viewer,
     catalogue: CatalogueService,
     search: Annotated[str, Query(max_length=200)] = "",
     tag: Annotated[str | None, Query(max_length=50)] = None,
@@ -43,7 +45,9 @@ def list_tests(
 
 
 @router.post("", status_code=201, operation_id="createTest")
-def create_test(body: TestCreate, catalogue: CatalogueService, response: Response) -> TestDetail:
+def create_test(
+    who: Operator, body: TestCreate, catalogue: CatalogueService, response: Response
+) -> TestDetail:
     """Save a new test."""
     test = granted(
         catalogue.create(granted(texts.read(catalogue.reader, body)), _saved(body), body.id)
@@ -53,13 +57,16 @@ def create_test(body: TestCreate, catalogue: CatalogueService, response: Respons
 
 
 @router.get("/{test_id}", operation_id="getTest")
-def get_test(test_id: TestId, catalogue: CatalogueService, response: Response) -> TestDetail:
+def get_test(
+    who: Viewer, test_id: TestId, catalogue: CatalogueService, response: Response
+) -> TestDetail:
     """A test with its definition and what it comes to; the ETag is its revision."""
     return _newest(catalogue, test_id, response)
 
 
 @router.put("/{test_id}", operation_id="saveTest")
 def save_test(
+    who: Operator,
     test_id: TestId,
     body: TestEdit,
     catalogue: CatalogueService,
@@ -75,13 +82,15 @@ def save_test(
 
 
 @router.delete("/{test_id}", status_code=204, operation_id="archiveTest")
-def archive_test(test_id: TestId, catalogue: CatalogueService) -> None:
+def archive_test(who: Operator, test_id: TestId, catalogue: CatalogueService) -> None:
     """Put a test aside: it can be restored, and its runs keep what they were made with."""
     granted(catalogue.set_archived(test_id, True))
 
 
 @router.post("/{test_id}/restore", operation_id="restoreTest")
-def restore_test(test_id: TestId, catalogue: CatalogueService, response: Response) -> TestDetail:
+def restore_test(
+    who: Operator, test_id: TestId, catalogue: CatalogueService, response: Response
+) -> TestDetail:
     """Take a test back that was put aside."""
     granted(catalogue.set_archived(test_id, False))
     return _newest(catalogue, test_id, response)
@@ -89,7 +98,11 @@ def restore_test(test_id: TestId, catalogue: CatalogueService, response: Respons
 
 @router.post("/{test_id}/clone", status_code=201, operation_id="cloneTest")
 def clone_test(
-    test_id: TestId, catalogue: CatalogueService, response: Response, body: TestClone | None = None
+    who: Operator,
+    test_id: TestId,
+    catalogue: CatalogueService,
+    response: Response,
+    body: TestClone | None = None,
 ) -> TestDetail:
     """A copy of the newest revision under another name."""
     asked = body or TestClone()
@@ -100,7 +113,7 @@ def clone_test(
 
 @router.put("/{test_id}/tags", operation_id="tagTest")
 def tag_test(
-    test_id: TestId, body: TestTags, catalogue: CatalogueService, response: Response
+    who: Operator, test_id: TestId, body: TestTags, catalogue: CatalogueService, response: Response
 ) -> TestDetail:
     """Give a test these tags and no others."""
     granted(catalogue.set_tags(test_id, body.tags))
@@ -108,19 +121,24 @@ def tag_test(
 
 
 @router.get("/{test_id}/revisions", operation_id="listRevisions")
-def list_revisions(test_id: TestId, catalogue: CatalogueService) -> list[RevisionSummary]:
+def list_revisions(
+    who: Viewer, test_id: TestId, catalogue: CatalogueService
+) -> list[RevisionSummary]:
     """The revisions, the newest first."""
     return granted(catalogue.revisions(test_id))
 
 
 @router.get("/{test_id}/revisions/{number}", operation_id="getRevision")
-def get_revision(test_id: TestId, number: Number, catalogue: CatalogueService) -> TestDetail:
+def get_revision(
+    who: Viewer, test_id: TestId, number: Number, catalogue: CatalogueService
+) -> TestDetail:
     """The test as it was in a revision."""
     return granted(catalogue.get_test(test_id, number))
 
 
 @router.post("/{test_id}/revisions/{number}/restore", operation_id="restoreRevision")
 def restore_revision(
+    who: Operator,
     test_id: TestId,
     number: Number,
     catalogue: CatalogueService,
@@ -134,6 +152,7 @@ def restore_revision(
 
 @router.get("/{test_id}/difference", operation_id="getDifference")
 def get_difference(
+    who: Viewer,
     test_id: TestId,
     catalogue: CatalogueService,
     from_: Annotated[Number, Query(alias="from")],

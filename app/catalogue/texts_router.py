@@ -8,6 +8,7 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse
 from pydantic import ValidationError
 
+from app.access.dependencies import Operator, Viewer
 from app.catalogue import texts
 from app.catalogue.archive import unpack
 from app.catalogue.schemas import (
@@ -33,19 +34,19 @@ _ZIP = "application/zip"
 
 
 @router.post("/check", operation_id="checkTest")
-def check_test(body: TestText, catalogue: CatalogueService) -> TestChecked:
+def check_test(who: Viewer, body: TestText, catalogue: CatalogueService) -> TestChecked:
     """Check a test and turn it from data into YAML or back; nothing is saved."""
     return texts.check(catalogue.reader, body)
 
 
 @router.post("/preview", operation_id="previewTest")
-def preview_test(body: PreviewAsk, catalogue: CatalogueService) -> PreviewOut:
+def preview_test(who: Viewer, body: PreviewAsk, catalogue: CatalogueService) -> PreviewOut:
     """What a test will do, by the loop's own generator; nothing is saved."""
     return granted(texts.preview(catalogue.reader, body))
 
 
 @router.post("/spectrum", operation_id="readSpectrum")
-def read_spectrum(body: SpectrumText) -> SpectrumOut:
+def read_spectrum(who: Viewer, body: SpectrumText) -> SpectrumOut:
     """The layers in rows pasted from a spreadsheet."""
     return texts.spectrum(body.text)
 
@@ -77,7 +78,9 @@ _FILES: dict[str, Any] = {
 
 
 @router.post("/import", operation_id="importTests", openapi_extra=_FILES)
-def import_tests(sent: Annotated[_Sent, Depends(_sent)], library: LibraryService) -> Imported:
+def import_tests(
+    who: Operator, sent: Annotated[_Sent, Depends(_sent)], library: LibraryService
+) -> Imported:
     """Enter the tests of a library file, of one YAML, or of several files: all of them or none."""
     return granted(library.enter(granted(_files_in(sent))))
 
@@ -88,6 +91,7 @@ class _Zip(Response):
 
 @router.get("/library.zip", operation_id="exportTests", response_class=_Zip)
 def export_tests(
+    who: Viewer,
     library: LibraryService,
     ids: Annotated[
         str | None, Query(max_length=LONGEST_IDS, description="with commas between")
@@ -106,6 +110,7 @@ def export_tests(
     responses={200: {"content": {_YAML: {"schema": {"type": "object"}}}}},
 )
 def get_yaml(
+    who: Viewer,
     test_id: TestId,
     catalogue: CatalogueService,
     revision: Annotated[int | None, Query(ge=1, le=2**31 - 1)] = None,
@@ -117,6 +122,7 @@ def get_yaml(
 
 @router.get("/{test_id}/definition.json", operation_id="getJson", response_class=JSONResponse)
 def get_json(
+    who: Viewer,
     test_id: TestId,
     catalogue: CatalogueService,
     revision: Annotated[int | None, Query(ge=1, le=2**31 - 1)] = None,

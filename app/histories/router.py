@@ -6,6 +6,7 @@ from typing import Annotated
 from anyio import from_thread
 from fastapi import APIRouter, Query, Request
 
+from app.access.dependencies import Operator, Viewer
 from app.dependencies import HistoryStore
 from app.histories.importing import HistoryInfo
 from app.histories.store import import_history
@@ -15,13 +16,14 @@ router = APIRouter(prefix="/api/v1/histories", tags=["tests"], responses=PROBLEM
 
 
 @router.get("", operation_id="listHistories")
-def list_histories(store: HistoryStore) -> list[HistoryInfo]:
+def list_histories(who: Viewer, store: HistoryStore) -> list[HistoryInfo]:
     """The time histories in the store."""
     return store.all()
 
 
 @router.post("", operation_id="addHistory", status_code=201)
 def add_history(
+    who: Operator,
     request: Request,
     store: HistoryStore,
     name: Annotated[str, Query(max_length=100)],

@@ -1,10 +1,13 @@
-"""`WS /api/v1/live`. The origin has been checked before (`app.security`)."""
+"""`WS /api/v1/live`. Origin and credentials have been checked before (`app.security`, `app.access.door`)."""
 
 import asyncio
 import logging
 
 from fastapi import APIRouter, WebSocket
 
+from app.access.dependencies import AccessService, Viewer
+from app.access.door import NOT_IN
+from app.access.sockets import until_sent_away
 from app.definitions.limits import RIG
 from app.dependencies import ThisConsole
 from app.errors import Refusal
@@ -18,16 +21,20 @@ TRY_AGAIN_LATER = 1013
 
 
 @router.websocket("/api/v1/live")
-async def live(socket: WebSocket, stream: ThisConsole) -> None:
+async def live(who: Viewer, socket: WebSocket, stream: ThisConsole, access: AccessService) -> None:
     """The live stream, as docs/wire.md has it."""
     await socket.accept()
     client = Client()
     client.put_message(Hello(period_s=RIG.period_s, version=VERSION).model_dump_json())
     stream.broadcaster.add(client)
-    tasks = [asyncio.create_task(job) for job in (client.send(socket), _listen(socket, client))]
+    sent_away = asyncio.create_task(until_sent_away(who, access.book))
+    jobs = (client.send(socket), _listen(socket, client))
+    tasks = [sent_away, *(asyncio.create_task(job) for job in jobs)]
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        if any(isinstance(task.exception(), TooSlow) for task in done):
+        if sent_away in done:
+            await socket.close(NOT_IN, "signed out")
+        elif any(isinstance(task.exception(), TooSlow) for task in done):
             _log.warning("a browser left too many events unread: closed")
             await socket.close(TRY_AGAIN_LATER, "too many events unread")
     finally:

@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Path, Response
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.access.dependencies import Viewer
 from app.catalogue import texts
 from app.catalogue.schemas import LONGEST_ID, Number, TestText
 from app.dependencies import CatalogueService, PredictionsService
@@ -40,6 +41,7 @@ class TextPredictionAsked(TestText):
 
 @router.post("/prediction", operation_id="predictText", responses=_COMPUTING)
 def predict_text(
+    who: Viewer,
     body: TextPredictionAsked,
     catalogue: CatalogueService,
     predictions: PredictionsService,
@@ -53,6 +55,7 @@ def predict_text(
 
 @router.post("/{test_id}/prediction", operation_id="predictTest", responses=_COMPUTING)
 def predict_test(
+    who: Viewer,
     test_id: Annotated[str, Path(max_length=LONGEST_ID)],
     catalogue: CatalogueService,
     predictions: PredictionsService,

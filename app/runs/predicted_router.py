@@ -4,6 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path, Query
 
+from app.access.dependencies import Viewer
 from app.dependencies import RunPredictionsService
 from app.prediction.schemas import Prediction
 from app.problems import PROBLEMS, granted
@@ -16,13 +17,16 @@ MOST_POINTS = 20_000
 
 
 @router.get("/{run_id}/prediction", operation_id="getRunPrediction")
-def get_run_prediction(run_id: RunId, predictions: RunPredictionsService) -> Prediction:
+def get_run_prediction(
+    who: Viewer, run_id: RunId, predictions: RunPredictionsService
+) -> Prediction:
     """The prediction that the run was started with."""
     return granted(predictions.prediction(run_id))
 
 
 @router.get("/{run_id}/predicted", operation_id="getRunPredicted")
 def get_run_predicted(
+    who: Viewer,
     run_id: RunId,
     predictions: RunPredictionsService,
     from_s: Seconds = 0.0,

@@ -5,6 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Path, Query, Response
 from fastapi.responses import StreamingResponse
 
+from app.access.dependencies import Viewer
 from app.dependencies import ResultsService
 from app.problems import PROBLEMS, granted
 from app.runs.results_schemas import AcquisitionRows, AcquisitionSummary, RunMeasurements
@@ -16,13 +17,15 @@ MOST_ROWS = 100_000
 
 
 @router.get("/{run_id}/measurements", operation_id="getRunMeasurements")
-def get_run_measurements(run_id: RunId, results: ResultsService) -> RunMeasurements:
+def get_run_measurements(who: Viewer, run_id: RunId, results: ResultsService) -> RunMeasurements:
     """What was measured of the run and of each block, and how that was judged."""
     return granted(results.measurements(run_id))
 
 
 @router.get("/{run_id}/acquisitions", operation_id="listRunAcquisitions")
-def list_run_acquisitions(run_id: RunId, results: ResultsService) -> list[AcquisitionSummary]:
+def list_run_acquisitions(
+    who: Viewer, run_id: RunId, results: ResultsService
+) -> list[AcquisitionSummary]:
     """The tables that the test asked for beside the record; of a run under way, so far."""
     return granted(results.acquisitions(run_id))
 
@@ -37,7 +40,7 @@ class _Csv(StreamingResponse):
     response_class=_Csv,
 )
 def get_run_acquisition_csv(
-    run_id: RunId, index: Index, results: ResultsService
+    who: Viewer, run_id: RunId, index: Index, results: ResultsService
 ) -> StreamingResponse:
     """A whole table as CSV, with the units in its first line."""
     lines = granted(results.as_csv(run_id, index))
@@ -52,6 +55,7 @@ def get_run_acquisition_csv(
     response_model=AcquisitionRows,
 )
 def get_run_acquisition(
+    who: Viewer,
     run_id: RunId,
     index: Index,
     results: ResultsService,

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Response
 
+from app.access.dependencies import Viewer
 from app.dependencies import RunWindowsService
 from app.problems import PROBLEMS, granted
 from app.runs.schemas import RunSamples
@@ -15,6 +16,7 @@ MOST_POINTS = 20_000
 
 @router.get("/{run_id}/samples", operation_id="getRunSamples", response_model=RunSamples)
 def get_run_samples(
+    who: Viewer,
     run_id: Annotated[int, Path(ge=1, le=2**53)],
     windows: RunWindowsService,
     channels: Annotated[str, Query(max_length=2000, description="names, with commas between")],

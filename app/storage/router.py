@@ -4,6 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
+from app.access.dependencies import Engineer, Viewer
 from app.dependencies import StorageService
 from app.problems import PROBLEMS, granted
 from app.storage.rule import Limits
@@ -19,13 +20,14 @@ router = APIRouter(prefix="/api/v1/storage", tags=["storage"], responses=PROBLEM
 
 
 @router.get("", operation_id="getStorage")
-def get_storage(storage: StorageService) -> StorageOut:
+def get_storage(who: Viewer, storage: StorageService) -> StorageOut:
     """The disk, what runs use of it, and how long samples are kept."""
     return storage.overview()
 
 
 @router.get("/retention/preview", operation_id="previewRetention")
 def preview_retention(
+    who: Viewer,
     storage: StorageService,
     keep_days: Annotated[float | None, Query(gt=0, le=36_500, allow_inf_nan=False)] = None,
     keep_bytes: Annotated[int | None, Query(ge=0, le=2**53)] = None,
@@ -38,6 +40,6 @@ def preview_retention(
 
 
 @router.put("/retention", operation_id="changeRetention")
-def change_retention(body: RetentionChange, storage: StorageService) -> RetentionOut:
+def change_retention(who: Engineer, body: RetentionChange, storage: StorageService) -> RetentionOut:
     """Give another rule. It is applied once a day, and at once where `apply` is true."""
     return granted(storage.retention.change(body))

@@ -22,7 +22,7 @@ HEADER = struct.Struct("<BBHIqII")
 @contextmanager
 def listening(console: ConsoleProcess, **options: Any) -> Iterator[ClientConnection]:
     address = console.url.replace("http", "ws") + "/api/v1/live"
-    with connect(address, **options) as stream:
+    with connect(address, additional_headers=console.headers, **options) as stream:
         yield stream
 
 

@@ -85,11 +85,13 @@ def test_the_console_describes_what_is_committed(console: ConsoleProcess) -> Non
 
 @reading.parametrize()
 def test_what_is_read(case: AnyCase, console: ConsoleProcess, known: Known) -> None:
-    case.call_and_validate(base_url=console.url, checks=CHECKS)
+    case.call_and_validate(base_url=console.url, headers=console.headers, checks=CHECKS)
     if case.path_parameters:
         names = case.path_parameters.keys()
         case.path_parameters = {name: known[name] for name in names}
-        answer = case.call_and_validate(base_url=console.url, checks=CHECKS)
+        answer = case.call_and_validate(
+            base_url=console.url, headers=console.headers, checks=CHECKS
+        )
         if answer.status_code == 404:
             assert answer.json()["code"] == "unknown_revision"
 
@@ -113,7 +115,7 @@ def test_the_one_character_that_postgresql_does_not_know(
 
 @asking.parametrize()
 def test_what_is_asked(case: AnyCase, console: ConsoleProcess) -> None:
-    case.call_and_validate(base_url=console.url, checks=CHECKS)
+    case.call_and_validate(base_url=console.url, headers=console.headers, checks=CHECKS)
 
 
 @pytest.mark.parametrize("operation", ["checkTest", "previewTest"])
@@ -124,5 +126,5 @@ def test_what_is_asked_of_whole_tests(
 ) -> None:
     found = interface.find_operation_by_id(operation)
     case = found.Case(body={"definition": definition}, media_type="application/json")
-    answer = case.call_and_validate(base_url=console.url, checks=CHECKS)
+    answer = case.call_and_validate(base_url=console.url, headers=console.headers, checks=CHECKS)
     assert answer.status_code == 200, answer.text

@@ -52,6 +52,7 @@ def browser() -> Iterator[Browser]:
 def page(browser: Browser, console: ConsoleProcess) -> Iterator[Page]:
     """A page of the console. The test fails where the page had an error or asked another site."""
     context = browser.new_context(viewport={"width": 1280, "height": 720})
+    context.request.get(console.url + console.new_link())
     page = context.new_page()
     complaints: list[str] = []
 

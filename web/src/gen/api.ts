@@ -4,6 +4,146 @@
  */
 
 export interface paths {
+    "/api/v1/audit": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Audit
+         * @description The newest entries first; `next` of a page is `before` of the page after it.
+         */
+        get: operations["listAudit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/audit/verification": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Verify Audit
+         * @description Walk the whole chain: whether every entry is as it was entered, and none is gone.
+         */
+        get: operations["verifyAudit"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/auth/login": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Sign In
+         * @description Sign in. The cookie holds for seven days, or until it was not used for twelve hours.
+         */
+        post: operations["signIn"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/auth/logout": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Sign Out
+         * @description Sign out: the session ends, and with it its live streams.
+         */
+        post: operations["signOut"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/auth/me": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Me
+         * @description Who asks, what they may do, and what goes with their changes as X-CSRF-Token.
+         */
+        get: operations["getMe"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/auth/password": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Set Password
+         * @description Set one's own password. One's other sessions end.
+         */
+        post: operations["setPassword"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/auth/ticket": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Get Ticket
+         * @description A ticket for a WebSocket, where neither cookie nor header can be sent with it.
+         */
+        post: operations["getTicket"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/channels": {
         parameters: {
             query?: never;
@@ -16,6 +156,114 @@ export interface paths {
          * @description The channels of the telemetry: columns of every recording.
          */
         get: operations["listChannels"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/first-outs": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List First Outs
+         * @description The newest first-outs first; `next` of a page is `before` of the page after it.
+         */
+        get: operations["listFirstOuts"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/first-outs/detectors": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List First Out Detectors
+         * @description Every detector that a first-out is of, in order.
+         */
+        get: operations["listFirstOutDetectors"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/first-outs/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get First Out
+         * @description A first-out with what the loop reported around it and what was in force.
+         */
+        get: operations["getFirstOut"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove First Out
+         * @description Remove a first-out with its samples; the audit keeps that it was there.
+         */
+        delete: operations["removeFirstOut"];
+        options?: never;
+        head?: never;
+        /**
+         * Annotate First Out
+         * @description Note what was found out, and the cause.
+         */
+        patch: operations["annotateFirstOut"];
+        trace?: never;
+    };
+    "/api/v1/first-outs/{number}/data.parquet": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get First Out Parquet
+         * @description Every tick and every channel, with what was in force in its metadata.
+         */
+        get: operations["getFirstOutParquet"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/first-outs/{number}/samples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get First Out Samples
+         * @description Least and greatest value in each of at most `points` stretches; times count from the first-out.
+         */
+        get: operations["getFirstOutSamples"];
         put?: never;
         post?: never;
         delete?: never;
@@ -131,7 +379,7 @@ export interface paths {
         put?: never;
         /**
          * Start Run
-         * @description Start a test. Answers once the loop has begun it.
+         * @description Start a test. Answers once the loop has begun it. To override a prediction takes an engineer.
          */
         post: operations["startRun"];
         delete?: never;
@@ -384,6 +632,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/sessions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Sessions
+         * @description The browsers that are signed in, the newest first.
+         */
+        get: operations["listSessions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/sessions/{session_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * End Session
+         * @description Sign a browser out from afar.
+         */
+        delete: operations["endSession"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/storage": {
         parameters: {
             query?: never;
@@ -436,6 +724,66 @@ export interface paths {
          * @description Which runs' samples a rule would remove now; the rule in force, where none is given.
          */
         get: operations["previewRetention"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/system/about": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get About
+         * @description What runs here, since when, and what it takes up.
+         */
+        get: operations["getAbout"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/system/doctor": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Diagnosis
+         * @description What `forcerig doctor` finds, without its probe: that would disturb the running loop.
+         */
+        get: operations["getDiagnosis"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/system/loop": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Loop Timing
+         * @description How the loop keeps time: the histograms as they are in its memory.
+         */
+        get: operations["getLoopTiming"];
         put?: never;
         post?: never;
         delete?: never;
@@ -816,6 +1164,118 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/tokens": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Tokens
+         * @description The tokens, the newest first.
+         */
+        get: operations["listTokens"];
+        put?: never;
+        /**
+         * Make Token
+         * @description A new token of one's own, up to one's own role. It is shown this once.
+         */
+        post: operations["makeToken"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/tokens/{token_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Revoke Token
+         * @description End a token: what uses it is refused from now on, and its live streams end.
+         */
+        delete: operations["revokeToken"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/users": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Users
+         * @description Everybody who may come in, by name.
+         */
+        get: operations["listUsers"];
+        put?: never;
+        /**
+         * Add User
+         * @description Enter a new user.
+         */
+        post: operations["addUser"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/users/{user_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Remove User
+         * @description Remove a user with their sessions and tokens.
+         */
+        delete: operations["removeUser"];
+        options?: never;
+        head?: never;
+        /**
+         * Change User
+         * @description Change role or password, disable or enable. A new password ends the user's sessions.
+         */
+        patch: operations["changeUser"];
+        trace?: never;
+    };
+    "/api/v1/users/{user_id}/link": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Link User
+         * @description A link that signs the user in once, within a day: to set a password.
+         */
+        post: operations["linkUser"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/healthz": {
         parameters: {
             query?: never;
@@ -840,6 +1300,31 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * About
+         * @description The console. Memory is what each process holds in RAM, null where that cannot be seen.
+         */
+        About: {
+            /** Clients */
+            clients: number;
+            /** Console Memory Bytes */
+            console_memory_bytes: number | null;
+            /** Data Bytes */
+            data_bytes: number;
+            /** Database */
+            database: string;
+            /** Loop Memory Bytes */
+            loop_memory_bytes: number | null;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            /** Uptime S */
+            uptime_s: number;
+            /** Version */
+            version: string;
+        };
         /**
          * AcquisitionColumn
          * @description A column of a table.
@@ -879,6 +1364,53 @@ export interface components {
             rows: number;
             /** Title */
             title: string;
+        };
+        /**
+         * AuditEntry
+         * @description Who did what, when and why. `outcome` is "done", or "refused: " and the code of the refusal.
+         *
+         *     `before` and `after` are what that kind of act changes; secrets are redacted.
+         */
+        AuditEntry: {
+            /** Action */
+            action: string;
+            /** After */
+            after: unknown;
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Before */
+            before: unknown;
+            /** Credential */
+            credential: string;
+            /** Hash */
+            hash: string;
+            /** Id */
+            id: number;
+            /** Outcome */
+            outcome: string;
+            /** Previous Hash */
+            previous_hash: string;
+            /** Role */
+            role: string;
+            /** Target */
+            target: string;
+            /** Who */
+            who: string;
+            /** Why */
+            why: string | null;
+        };
+        /**
+         * AuditPage
+         * @description Entries, the newest first; `next` is `before` of the page after this one.
+         */
+        AuditPage: {
+            /** Entries */
+            entries: components["schemas"]["AuditEntry"][];
+            /** Next */
+            next: number | null;
         };
         /**
          * Band
@@ -987,7 +1519,7 @@ export interface components {
          * @description Every reason to refuse. Programs match on these; sentences may change.
          * @enum {string}
          */
-        Code: "invalid_request" | "not_found" | "method_not_allowed" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "no_program" | "busy" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
+        Code: "invalid_request" | "not_found" | "method_not_allowed" | "not_signed_in" | "not_allowed" | "two_credentials" | "csrf" | "sign_in_failed" | "wrong_password" | "weak_password" | "too_many_attempts" | "too_many_requests" | "unknown_user" | "user_exists" | "last_admin" | "own_account" | "unknown_token" | "unknown_session" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_first_out" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "lease_needed" | "lease_held" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "interlocks_weakened" | "no_program" | "busy" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
         /**
          * CommandDone
          * @description The loop has taken the command in this tick.
@@ -1090,6 +1622,20 @@ export interface components {
             text: string;
         };
         /**
+         * Diagnosis
+         * @description Whether this machine is fit for real time. `measured` says what wake-ups it is judged by.
+         */
+        Diagnosis: {
+            /** Findings */
+            findings: components["schemas"]["FindingOut"][];
+            /** Measured */
+            measured: string;
+            /** Sentence */
+            sentence: string;
+            /** Verdict */
+            verdict: string;
+        };
+        /**
          * Difference
          * @description What two revisions differ in; `text` is the unified difference of their YAML.
          */
@@ -1133,6 +1679,26 @@ export interface components {
             type: "event";
         };
         /**
+         * EventKept
+         * @description What the loop reported in the black box's time.
+         */
+        EventKept: {
+            /** Code */
+            code: string;
+            /** Kind */
+            kind: string;
+            /** Limit */
+            limit: number | null;
+            /** Text */
+            text: string;
+            /** Tick */
+            tick: number;
+            /** Time S */
+            time_s: number;
+            /** Value */
+            value: number | null;
+        };
+        /**
          * EventOut
          * @description What the loop reported.
          */
@@ -1165,6 +1731,141 @@ export interface components {
             unit?: string | null;
             /** Value */
             value?: unknown;
+        };
+        /**
+         * FindingOut
+         * @description One thing that was looked at; `grade` is good, unknown, limited or unfit.
+         */
+        FindingOut: {
+            /** Advice */
+            advice: string;
+            /** Grade */
+            grade: string;
+            /** Name */
+            name: string;
+            /** Seen */
+            seen: string;
+        };
+        /**
+         * FirstOutDetail
+         * @description A first-out with everything that was kept of it. Times are seconds from its tick.
+         */
+        FirstOutDetail: {
+            /** Action */
+            action: string;
+            /** Cause */
+            cause: string;
+            /** Detector */
+            detector: string;
+            /** Events */
+            events: components["schemas"]["EventKept"][];
+            /** First S */
+            first_s: number | null;
+            /** Id */
+            id: number;
+            /** Injected */
+            injected: {
+                [key: string]: number;
+            };
+            /** Last S */
+            last_s: number | null;
+            /** Lease */
+            lease: {
+                [key: string]: unknown;
+            } | null;
+            /** Limit */
+            limit: number | null;
+            /** Missing Ticks */
+            missing_ticks: number;
+            /** Mode Before */
+            mode_before: string | null;
+            /** Note */
+            note: string;
+            /** Peaks */
+            peaks: components["schemas"]["PeakKept"][];
+            /** Period S */
+            period_s: number;
+            /** Quantity */
+            quantity: string;
+            /** Run Id */
+            run_id: number | null;
+            settings: components["schemas"]["Settings"];
+            /** Text */
+            text: string;
+            /** Tick */
+            tick: number;
+            /** Ticks */
+            ticks: number;
+            /**
+             * Tripped At
+             * Format: date-time
+             */
+            tripped_at: string;
+            /** Trips */
+            trips: components["schemas"]["TripKept"][];
+            /** Value */
+            value: number | null;
+        };
+        /**
+         * FirstOutNote
+         * @description What to note of a first-out; what is null stays.
+         */
+        FirstOutNote: {
+            /** Cause */
+            cause?: string | null;
+            /** Note */
+            note?: string | null;
+        };
+        /**
+         * FirstOutPage
+         * @description A page of first-outs, newest first; `next` is the number to ask for those before.
+         *
+         *     `trouble` says why one could not be kept yet; it is tried again.
+         */
+        FirstOutPage: {
+            /** First Outs */
+            first_outs: components["schemas"]["FirstOutSummary"][];
+            /** Next */
+            next: number | null;
+            /** Trouble */
+            trouble: string | null;
+        };
+        /**
+         * FirstOutSummary
+         * @description A first-out in the list; `ticks` is 0 where the ring held nothing of it any more.
+         */
+        FirstOutSummary: {
+            /** Action */
+            action: string;
+            /** Cause */
+            cause: string;
+            /** Detector */
+            detector: string;
+            /** Id */
+            id: number;
+            /** Limit */
+            limit: number | null;
+            /** Mode Before */
+            mode_before: string | null;
+            /** Note */
+            note: string;
+            /** Quantity */
+            quantity: string;
+            /** Run Id */
+            run_id: number | null;
+            /** Text */
+            text: string;
+            /** Tick */
+            tick: number;
+            /** Ticks */
+            ticks: number;
+            /**
+             * Tripped At
+             * Format: date-time
+             */
+            tripped_at: string;
+            /** Value */
+            value: number | null;
         };
         /**
          * Health
@@ -1341,6 +2042,26 @@ export interface components {
             version: string;
         };
         /**
+         * Histogram
+         * @description Counts of ticks since the loop's start: bin `i` begins at `i` times `bin_s`, the last has no end.
+         *
+         *     Times are null where there is no count, or where they lie in the last bin.
+         */
+        Histogram: {
+            /** Bin S */
+            bin_s: number;
+            /** Counts */
+            counts: number[];
+            /** Longest S */
+            longest_s: number | null;
+            /** P50 S */
+            p50_s: number | null;
+            /** P999 S */
+            p999_s: number | null;
+            /** P99 S */
+            p99_s: number | null;
+        };
+        /**
          * HistoryInfo
          * @description A time history in the store. `unit` is N or m where the file's heading says so.
          */
@@ -1464,6 +2185,19 @@ export interface components {
             velocity_m_s: number | null;
         };
         /**
+         * Link
+         * @description A link that signs its user in, once; `path` goes behind the console's address.
+         */
+        Link: {
+            /**
+             * Expires At
+             * Format: date-time
+             */
+            expires_at: string;
+            /** Path */
+            path: string;
+        };
+        /**
          * LoopHealth
          * @description The loop process. Times are over its whole life; null beyond the histogram's 1 ms.
          */
@@ -1498,9 +2232,38 @@ export interface components {
             wakeup_latency_p99_s: number | null;
         };
         /**
+         * LoopTiming
+         * @description How the loop keeps time, over its whole life; the loop alone resets it, by starting anew.
+         *
+         *     What happened since an earlier answer is the difference of the counts, as long as `life` is the same.
+         */
+        LoopTiming: {
+            /** Alive */
+            alive: boolean;
+            /** Conditions */
+            conditions: components["schemas"]["Condition"][];
+            /** Deadlines Missed */
+            deadlines_missed: number;
+            /** Late Ticks */
+            late_ticks: number;
+            /** Life */
+            life: string;
+            /** Period S */
+            period_s: number;
+            /** Pid */
+            pid: number;
+            /** Realtime */
+            realtime: boolean;
+            tick_time: components["schemas"]["Histogram"];
+            /** Ticks */
+            ticks: number;
+            wakeup: components["schemas"]["Histogram"];
+        };
+        /**
          * Margin
          * @description How near a detector comes to its trip.
          *
+         *     `threshold` is the upper end of a band, `low` its lower one.
          *     `extreme` is the value that lasts as long as the detector wants it to; `margin` is what is left to the
          *     threshold, below zero where it trips. Both are null where nothing can be said, and `note` says why.
          */
@@ -1513,6 +2276,13 @@ export interface components {
             detector: string;
             /** Extreme */
             extreme: number | null;
+            /**
+             * Form
+             * @default value
+             */
+            form: string;
+            /** Low */
+            low?: number | null;
             /** Margin */
             margin: number | null;
             /** Margin Share */
@@ -1534,6 +2304,28 @@ export interface components {
             time_s: number | null;
             /** Unit */
             unit: string | null;
+        };
+        /**
+         * Me
+         * @description Who asks. `csrf_token` goes with whatever changes something; null for a token.
+         */
+        Me: {
+            /** Csrf Token */
+            csrf_token: string | null;
+            /** Id */
+            id: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "session" | "token";
+            /** Must Set Password */
+            must_set_password: boolean;
+            /** Name */
+            name: string;
+            role: components["schemas"]["RoleWord"];
+            /** User Id */
+            user_id: number;
         };
         /**
          * MeasuredValue
@@ -1612,6 +2404,32 @@ export interface components {
             peak_displacement_m: number;
             /** Peak Force N */
             peak_force_n: number;
+        };
+        /**
+         * PasswordChange
+         * @description A new password; the old one too, where there is one.
+         */
+        PasswordChange: {
+            /** New */
+            new: string;
+            /** Old */
+            old?: string | null;
+        };
+        /**
+         * PeakKept
+         * @description The greatest magnitude of a channel before the first-out and from it on; null where nothing was kept.
+         */
+        PeakKept: {
+            /** After */
+            after: number | null;
+            /** After S */
+            after_s: number | null;
+            /** Before */
+            before: number | null;
+            /** Channel */
+            channel: string;
+            /** Unit */
+            unit: string;
         };
         /**
          * Permissive
@@ -1939,6 +2757,12 @@ export interface components {
             trips: components["schemas"]["Trip"][];
         };
         /**
+         * RoleWord
+         * @description What somebody may do; each includes those before it.
+         * @enum {string}
+         */
+        RoleWord: "viewer" | "operator" | "engineer" | "admin";
+        /**
          * RunAnnotation
          * @description What to note of a run, on top of `annotation` and nothing newer; what is null stays.
          */
@@ -2108,7 +2932,7 @@ export interface components {
         };
         /**
          * RunSamples
-         * @description Channels of a run over time; `time_s` counts from the run's first tick.
+         * @description Channels over time; `time_s` counts from the run's first tick, or from the tick of a first-out.
          */
         RunSamples: {
             /** Channels */
@@ -2209,6 +3033,69 @@ export interface components {
              * @constant
              */
             type: "runs";
+        };
+        /**
+         * Scope
+         * @description Of a token; each includes those before it.
+         * @enum {string}
+         */
+        Scope: "read" | "operate" | "engineer" | "admin";
+        /**
+         * SessionOut
+         * @description A browser that is signed in; `present` for the one that asks.
+         */
+        SessionOut: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /**
+             * Expires At
+             * Format: date-time
+             */
+            expires_at: string;
+            /** Id */
+            id: number;
+            /**
+             * Last Seen At
+             * Format: date-time
+             */
+            last_seen_at: string;
+            /** Present */
+            present: boolean;
+            /** User */
+            user: string;
+        };
+        /**
+         * Settings
+         * @description What was in force; `interlocks` is null where the loop had a table that nobody knows any more.
+         */
+        Settings: {
+            /** Controller */
+            controller: {
+                [key: string]: unknown;
+            };
+            /** Interlocks */
+            interlocks: {
+                [key: string]: unknown;
+            } | null;
+            /** Rig */
+            rig: {
+                [key: string]: unknown;
+            };
+            /** Seed */
+            seed: number;
+        };
+        /**
+         * SignIn
+         * @description Who wants to sign in.
+         */
+        SignIn: {
+            /** Name */
+            name: string;
+            /** Password */
+            password: string;
         };
         /**
          * SpectrumOut
@@ -2524,6 +3411,80 @@ export interface components {
             yaml?: string | null;
         };
         /**
+         * Ticket
+         * @description For `?ticket=` of a WebSocket: good once, and not for long.
+         */
+        Ticket: {
+            /** Expires In S */
+            expires_in_s: number;
+            /** Ticket */
+            ticket: string;
+        };
+        /**
+         * TokenCreate
+         * @description A new token of one's own; with null for its days it does not expire.
+         */
+        TokenCreate: {
+            /**
+             * Expires In Days
+             * @default 90
+             */
+            expires_in_days: number | null;
+            /** Name */
+            name: string;
+            scope: components["schemas"]["Scope"];
+        };
+        /**
+         * TokenMade
+         * @description A new token. `token` is shown this once.
+         */
+        TokenMade: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Expires At */
+            expires_at: string | null;
+            /** Id */
+            id: number;
+            /** Last Used At */
+            last_used_at: string | null;
+            /** Name */
+            name: string;
+            /** Owner */
+            owner: string;
+            /** Revoked At */
+            revoked_at: string | null;
+            scope: components["schemas"]["Scope"];
+            /** Token */
+            token: string;
+        };
+        /**
+         * TokenOut
+         * @description A token, without what makes it one.
+         */
+        TokenOut: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Expires At */
+            expires_at: string | null;
+            /** Id */
+            id: number;
+            /** Last Used At */
+            last_used_at: string | null;
+            /** Name */
+            name: string;
+            /** Owner */
+            owner: string;
+            /** Revoked At */
+            revoked_at: string | null;
+            scope: components["schemas"]["Scope"];
+        };
+        /**
          * Trip
          * @description A latched detector; `first` for the one that tripped first.
          */
@@ -2538,6 +3499,74 @@ export interface components {
             tick: number;
         };
         /**
+         * TripKept
+         * @description A detector that tripped in the black box's time, in the order of tripping; `limit` is its threshold.
+         */
+        TripKept: {
+            /** Action */
+            action: string;
+            /** Detector */
+            detector: string;
+            /** Limit */
+            limit: number | null;
+            /** Order */
+            order: number;
+            /** Quantity */
+            quantity: string;
+            /** Text */
+            text: string;
+            /** Tick */
+            tick: number;
+            /** Time S */
+            time_s: number;
+            /** Value */
+            value: number | null;
+        };
+        /**
+         * UserChange
+         * @description What is to be another; what is not given stays.
+         */
+        UserChange: {
+            /** Disabled */
+            disabled?: boolean | null;
+            /** Password */
+            password?: string | null;
+            role?: components["schemas"]["RoleWord"] | null;
+        };
+        /**
+         * UserCreate
+         * @description A new user. Without a password, a link lets them in to set one.
+         */
+        UserCreate: {
+            /** Name */
+            name: string;
+            /** Password */
+            password?: string | null;
+            role: components["schemas"]["RoleWord"];
+        };
+        /**
+         * UserOut
+         * @description A user; `last_seen_at` is null for one who has not been seen in a week.
+         */
+        UserOut: {
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Disabled */
+            disabled: boolean;
+            /** Has Password */
+            has_password: boolean;
+            /** Id */
+            id: number;
+            /** Last Seen At */
+            last_seen_at: string | null;
+            /** Name */
+            name: string;
+            role: components["schemas"]["RoleWord"];
+        };
+        /**
          * Valve
          * @description The valve command: its peak, the share of the test at its limit, and the longest stretch of that.
          */
@@ -2548,6 +3577,27 @@ export interface components {
             peak: number;
             /** Saturation Share */
             saturation_share: number;
+        };
+        /**
+         * Verification
+         * @description Whether the chain is intact; `broken_id` is the first row that is not.
+         *
+         *     `hash` is that of the newest row that is in order: kept elsewhere, it proves all rows up to it.
+         *     `behind` is by how many rows the file of the chain's end lags, after a kill.
+         */
+        Verification: {
+            /** Behind */
+            behind: number;
+            /** Broken Id */
+            broken_id: number | null;
+            /** Detail */
+            detail: string;
+            /** Hash */
+            hash: string;
+            /** Intact */
+            intact: boolean;
+            /** Rows */
+            rows: number;
         };
         /**
          * Peaks
@@ -2602,6 +3652,223 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
+    listAudit: {
+        parameters: {
+            query?: {
+                who?: string | null;
+                /** @description or its beginning */
+                action?: string | null;
+                target?: string | null;
+                since?: string | null;
+                /** @description and not then */
+                until?: string | null;
+                /** @description beginnings of words */
+                search?: string;
+                limit?: number;
+                before?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["AuditPage"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    verifyAudit: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Verification"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    signIn: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SignIn"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    signOut: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getMe: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Me"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    setPassword: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PasswordChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getTicket: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Ticket"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     listChannels: {
         parameters: {
             query?: never;
@@ -2618,6 +3885,236 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ChannelOut"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listFirstOuts: {
+        parameters: {
+            query?: {
+                detector?: string | null;
+                run?: number | null;
+                from?: string | null;
+                /** @description and not then */
+                to?: string | null;
+                limit?: number;
+                before?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FirstOutPage"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listFirstOutDetectors: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": string[];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getFirstOut: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FirstOutDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    removeFirstOut: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    annotateFirstOut: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["FirstOutNote"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FirstOutDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getFirstOutParquet: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.apache.parquet": string;
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getFirstOutSamples: {
+        parameters: {
+            query: {
+                /** @description names, with commas between */
+                channels: string;
+                /** @description from the first-out: negative before it */
+                from_s?: number;
+                to_s?: number | null;
+                points?: number;
+            };
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunSamples"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -3279,6 +4776,64 @@ export interface operations {
             };
         };
     };
+    listSessions: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SessionOut"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    endSession: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                session_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getStorage: {
         parameters: {
             query?: never;
@@ -3361,6 +4916,93 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RetentionPreview"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getAbout: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["About"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getDiagnosis: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Diagnosis"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getLoopTiming: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LoopTiming"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -4086,6 +5728,254 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["TestDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listTokens: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenOut"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    makeToken: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["TokenCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TokenMade"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    revokeToken: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                token_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listUsers: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserOut"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    addUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["UserCreate"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    removeUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    changeUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["UserChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    linkUser: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                user_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Link"];
                 };
             };
             /** @description A problem document (RFC 9457) */
