@@ -14,7 +14,7 @@ from app.db import Database
 
 
 class Audit:
-    """Reading it needs no `open`; only a console that enters something opens it."""
+    """Reading it needs neither `open`, as a console does, nor `follow`."""
 
     def __init__(self, database: Database, data_dir: Path) -> None:
         self._database = database
@@ -23,10 +23,14 @@ class Audit:
 
     def open(self) -> None:
         """Keep the end of the chain, and take what is noted from now on. Raises `OSError`."""
-        Head(self._data_dir / HEAD_FILE).follow(self._database)
+        self.follow()
         self._notes = Notes(self._database, Spool(self._data_dir / SPOOL_FILE))
         self._notes.start()
         take_notes(self._notes.take)
+
+    def follow(self) -> None:
+        """Keep the end of the chain: whoever changes the database does, a command as a console."""
+        Head(self._data_dir / HEAD_FILE).follow(self._database)
 
     def close(self) -> None:
         """Enter what was noted, or leave it in the file for the next console."""

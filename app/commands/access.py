@@ -1,6 +1,8 @@
 """What `forcerig user …` and `forcerig token …` share: the data directory, and how they answer."""
 
+import os
 from collections.abc import Callable
+from getpass import getuser
 from pathlib import Path
 from typing import TypeVar
 
@@ -12,6 +14,8 @@ from app.access.book import Book
 from app.access.passwords import Passwords
 from app.access.tokens import Tokens
 from app.access.users import Users
+from app.audit.actor import Actor, acting
+from app.audit.service import Audit
 from app.commands.output import Exit, print_json, print_refusal, text_console
 from app.db import Database
 from app.errors import Code, Refusal
@@ -34,9 +38,11 @@ def on_database(settings: Settings, work: Callable[[Users, Tokens], T]) -> T | R
         database = Database(settings.database_address)
         try:
             database.upgrade()
+            Audit(database, settings.data_dir).follow()
             book = Book(database)
             book.read()
-            return work(Users(book, passwords), Tokens(book))
+            with acting(_who_types()):
+                return work(Users(book, passwords), Tokens(book))
         finally:
             database.close()
     except (OSError, SQLAlchemyError) as error:
@@ -44,6 +50,15 @@ def on_database(settings: Settings, work: Callable[[Users, Tokens], T]) -> T | R
         return Refusal(Code.DATABASE_UNAVAILABLE, f"Cannot use {settings.data_dir}: {first}")
     finally:
         passwords.close()
+
+
+def _who_types() -> Actor:
+    """Whoever may read and write the data needs no other right."""
+    try:
+        name = getuser()
+    except (KeyError, OSError):  # a user without a name, in a container
+        name = f"user {os.getuid()}"
+    return Actor(name, "command line", f"uid:{os.getuid()}")
 
 
 def read(kind: type[Asked], **given: object) -> Asked | Refusal:
