@@ -31,10 +31,9 @@ class RunWindows:
         points: int,
     ) -> RunSamples | Refusal:
         """Minimum and maximum of channels in at most `points` stretches of time."""
-        names = list(dict.fromkeys(channels))
-        unknown = [name for name in names if name not in CHANNEL]
-        if unknown or not names:
-            return _unknown_channels(unknown)
+        names = known_channels(channels)
+        if isinstance(names, Refusal):
+            return names
         with self._database.reading() as session:
             run = repository.get(session, run_id)
             if run is None:
@@ -45,8 +44,28 @@ class RunWindows:
         if samples is None:
             return refusal
         origin = samples.first_tick if first_tick is None else first_tick
-        first, last = _ticks_between(samples, origin, from_s, to_s, period_s)
-        return _shown(envelope(samples, names, first, last, points), origin, last, period_s)
+        return window_of(samples, names, origin, period_s, from_s, to_s, points)
+
+
+def known_channels(channels: Sequence[str]) -> list[str] | Refusal:
+    """Names of channels, each once."""
+    names = list(dict.fromkeys(channels))
+    unknown = [name for name in names if name not in CHANNEL]
+    return _unknown_channels(unknown) if unknown or not names else names
+
+
+def window_of(
+    samples: Samples,
+    names: Sequence[str],
+    origin: int,
+    period_s: float,
+    from_s: float,
+    to_s: float | None,
+    points: int,
+) -> RunSamples:
+    """Channels in at most `points` stretches between two times (s) from the tick `origin`."""
+    first, last = _ticks_between(samples, origin, from_s, to_s, period_s)
+    return _shown(envelope(samples, names, first, last, points), origin, last, period_s)
 
 
 def _ticks_between(
@@ -68,7 +87,7 @@ def _shown(bands: Envelope, origin: int, last: int, period_s: float) -> RunSampl
     times_s = ((bands.ticks - origin) * period_s).round(9).tolist()
     return RunSamples(
         from_s=times_s[0] if times_s else 0.0,
-        to_s=max(0.0, (last - origin) * period_s),
+        to_s=max(times_s[0] if times_s else 0.0, (last - origin) * period_s),
         decimated=bands.bin_ticks > 1,
         time_s=times_s,
         channels={

@@ -163,7 +163,7 @@ class Band(BaseModel):
 
 
 class RunSamples(BaseModel):
-    """Channels of a run over time; `time_s` counts from the run's first tick."""
+    """Channels over time; `time_s` counts from the run's first tick, or from the tick of a first-out."""
 
     from_s: float
     to_s: float
