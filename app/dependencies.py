@@ -9,6 +9,7 @@ from fastapi.requests import HTTPConnection
 from app.audit.service import Audit
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
+from app.first_outs.service import FirstOuts
 from app.histories.store import Store
 from app.prediction.service import Predictions
 from app.rigs.service import Rig
@@ -59,6 +60,10 @@ def _library(this: ThisConsole) -> Library:
     return this.library
 
 
+def _first_outs(this: ThisConsole) -> FirstOuts:
+    return this.first_outs
+
+
 def _runs(this: ThisConsole) -> Runs:
     return this.runs
 
@@ -98,6 +103,7 @@ RigService = Annotated[Rig, Depends(_rig)]
 CommandThreads = Annotated[Executor, Depends(_command_threads)]
 CatalogueService = Annotated[Catalogue, Depends(_catalogue)]
 LibraryService = Annotated[Library, Depends(_library)]
+FirstOutsService = Annotated[FirstOuts, Depends(_first_outs)]
 RunsService = Annotated[Runs, Depends(_runs)]
 ResultsService = Annotated[Results, Depends(_results)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
