@@ -15,6 +15,7 @@ class Word(StrEnum):
     RELEASED = "released"
     HANDED_OVER = "handed_over"
     EXPIRED = "expired"
+    SIGNED_OUT = "signed_out"
     REQUESTED = "requested"
     DECLINED = "declined"
 
@@ -51,6 +52,7 @@ _SENTENCES = {
     Word.RELEASED: "{before} is no longer in command",
     Word.HANDED_OVER: "{before} has handed command over to {who}",
     Word.EXPIRED: "{before} is no longer in command: no sign of them for {ttl}",
+    Word.SIGNED_OUT: "{before} is no longer in command: signed out",
     Word.REQUESTED: "{asks}",
     Word.DECLINED: "{asked} does not get command now",
 }

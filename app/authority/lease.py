@@ -113,7 +113,7 @@ def request(lease: Lease, who: Principal, reason: str, now_s: float) -> Lease | 
         return refusals.nothing_to_ask_for()
     if lease.held.who.id == who.id:
         return refusals.yours_already()
-    others = without_requests_of(lease, who.id)
+    others = _without(lease, lambda request: request.who.id == who.id)
     if len(others.requests) >= MOST_REQUESTS:
         return refusals.too_many_requests()
     made = Request(lease.asked + 1, who, reason, now_s)
@@ -140,11 +140,6 @@ def decline(lease: Lease, who_id: str, request_id: int, now_s: float) -> Lease |
     return _without(lease, lambda request: request.id == request_id)
 
 
-def without_requests_of(lease: Lease, who_id: str) -> Lease:
-    """The same without what somebody asked for; itself where they did not."""
-    return _without(lease, lambda request: request.who.id == who_id)
-
-
 def check(lease: Lease, who: Principal, epoch: int | None, now_s: float) -> int | Refusal:
     """The epoch that a command of theirs bears, where they are in command."""
     if not lease.is_held_by(who.id):
@@ -154,6 +149,13 @@ def check(lease: Lease, who: Principal, epoch: int | None, now_s: float) -> int 
     return lease.epoch
 
 
+def without_strangers(lease: Lease, still: Callable[[Principal], bool]) -> Lease:
+    """What is left where a session or token has ended: neither their command nor their requests."""
+    known = _without(lease, lambda request: not still(request.who))
+    gone = lease.held is not None and not still(lease.held.who)
+    return _freed(known) if gone else known
+
+
 def beyond(lease: Lease, epoch: int) -> Lease:
     """The same with an epoch of its own, where the loop obeys a later one than was known here."""
     return lease if epoch <= lease.epoch else replace(lease, epoch=epoch + 1)
@@ -161,7 +163,7 @@ def beyond(lease: Lease, epoch: int) -> Lease:
 
 def _given(lease: Lease, who: Principal, wish: Wish, now_s: float) -> Lease:
     held = Held(who, now_s, wish.reason, wish.ttl_s, now_s)
-    others = without_requests_of(lease, who.id)
+    others = _without(lease, lambda request: request.who.id == who.id)
     return replace(others, epoch=lease.epoch + 1, held=held)
 
 

@@ -45,15 +45,24 @@ class Clock:
 
 
 class Authority:
-    """The lease of the rig. May be asked from any thread; only changes of holder wait for the loop."""
+    """The lease of the rig. May be asked from any thread; only changes of holder wait for the loop.
+
+    `still` says whether somebody may still be here; `tell` is told of every change.
+    """
 
     def __init__(
-        self, loop: Loop, tell: Callable[[Change], None], clock: Clock | None = None
+        self,
+        loop: Loop,
+        still: Callable[[Principal], bool],
+        tell: Callable[[Change], None],
+        clock: Clock | None = None,
     ) -> None:
         self._loop = loop
+        self._still = still
         self._tell = tell
         self._clock = clock or Clock()
-        self._lease = Lease()
+        # Nobody changes hands once a second for long: epochs grow across restarts of everything.
+        self._lease = Lease(epoch=int(self._clock.began.timestamp()))
         self._changing = Lock()  # one change after the other, each with the loop's answer
         self._writing = Lock()  # never held for long: beats come from the event loop
 
@@ -122,14 +131,6 @@ class Authority:
             )
         )
 
-    def leaves(self, who_id: str) -> None:
-        """Somebody's session or token has ended: so have their command and their request."""
-        lease = self._lease
-        if rules.without_requests_of(lease, who_id) is not lease:
-            self._change(Word.DECLINED, lambda lease, _: rules.without_requests_of(lease, who_id))
-        if lease.is_held_by(who_id):
-            self._change(Word.RELEASED, lambda lease, now_s: rules.release(lease, who_id, now_s))
-
     def look(self) -> None:
         """Do what time asks for: let a lease expire, tell a new loop which epoch to obey."""
         with self._changing:
@@ -168,12 +169,18 @@ class Authority:
         return None
 
     def _settle(self) -> None:
-        with self._writing:
-            before = self._lease
-            self._lease = after = rules.passed(before, self._clock.seconds())
-        self._agree()
-        if after.epoch != before.epoch:
-            self._announce(Word.EXPIRED, before, after)
+        """Do what time and the ends of sessions ask for, one after the other, and tell of it."""
+        steps: tuple[tuple[Word, Callable[[Lease], Lease]], ...] = (
+            (Word.EXPIRED, lambda lease: rules.passed(lease, self._clock.seconds())),
+            (Word.SIGNED_OUT, lambda lease: rules.without_strangers(lease, self._still)),
+        )
+        for word, settled in steps:
+            with self._writing:
+                before = self._lease
+                self._lease = after = settled(before)
+            self._agree()
+            if after.epoch != before.epoch:
+                self._announce(word, before, after)
 
     def _agree(self) -> None:
         """Have the loop obey the present epoch, where it is a new one or did not answer before."""
