@@ -125,9 +125,14 @@ FORCE_LIMIT = detector(Quantity.FORCE_N, 55e3, Action.SHUTDOWN)
 SILENCE = detector(Quantity.APP_SILENCE_S, 0.5, Action.STOP, comparison=Comparison.ABOVE)
 
 
+def record_of(dtype: np.dtype[Any]) -> Any:
+    """A record of zeros that kernels take, and that they can be read by where they are not compiled."""
+    return np.zeros(1, np.dtype((np.record, dtype)))[0]
+
+
 def interlocks(*detectors: Row) -> Any:
     """An INTERLOCKS record; the force limit alone where none is given."""
-    record = np.zeros(1, INTERLOCKS)[0]
+    record = record_of(INTERLOCKS)
     for i, row in enumerate(detectors or (FORCE_LIMIT,)):
         for name, value in row.items():
             record["detectors"][i][name] = value

@@ -138,7 +138,7 @@ def test_a_replayed_a_late_and_a_stale_command_are_refused(virtual: Virtual) -> 
     virtual.advance(1)
     assert reply_to(virtual, late) == Reply.EXPIRED
 
-    post(virtual.block, Opcode.TARE, lease=5)
+    post(virtual.block, Opcode.TAKE_LEASE, lease=5)
     stale = post(virtual.block, Opcode.PRESSURISE, lease=4)
     virtual.advance(2)
     assert reply_to(virtual, stale) == Reply.STALE_LEASE
@@ -146,7 +146,7 @@ def test_a_replayed_a_late_and_a_stale_command_are_refused(virtual: Virtual) -> 
 
 
 def test_a_stop_needs_neither_lease_nor_haste(running: Virtual) -> None:
-    post(running.block, Opcode.HOLD, lease=5)
+    post(running.block, Opcode.TAKE_LEASE, lease=5)
     stop = post(running.block, Opcode.STOP, lease=1)
     running.block.fields["commands"][stop % 64]["expires_ns"] = -1
     running.advance(2)

@@ -1,31 +1,36 @@
 """One detector by itself."""
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rtcore.interlocks import (
     DETECTOR,
+    MAX_DETECTORS,
+    TREND,
     Action,
     Comparison,
     Form,
     Quantity,
+    armed_in,
     check_detector,
     interlocks_are_valid,
     is_violated,
+    judged_value,
+    latches,
 )
 from rtcore.modes import Mode
-from tests.unit.rtcore.programs import FORCE_LIMIT, detector, interlocks
+from tests.unit.rtcore.programs import FORCE_LIMIT, detector, interlocks, record_of
 
 finite = st.floats(allow_nan=False, allow_infinity=False, width=32)
 
 
 def one(comparison: Comparison, threshold: float) -> Any:
-    record = np.zeros(1, DETECTOR)[0]
+    record = record_of(DETECTOR)
     record["comparison"] = comparison
     record["threshold"] = threshold
     record["enabled"] = 1
@@ -82,6 +87,103 @@ def test_a_detector_counts_only_where_it_is_armed_and_enabled() -> None:
 def test_the_loop_refuses_a_meaningless_detector(wrong: dict[str, float]) -> None:
     assert interlocks_are_valid(interlocks(FORCE_LIMIT))
     assert not interlocks_are_valid(interlocks(FORCE_LIMIT, {**FORCE_LIMIT, **wrong}))
+
+
+def test_a_full_table_is_taken_and_one_more_is_not() -> None:
+    record = interlocks(*[FORCE_LIMIT] * MAX_DETECTORS)
+    assert interlocks_are_valid(record)
+    record["count"] = MAX_DETECTORS + 1
+    assert not interlocks_are_valid(record)
+    record["count"] = MAX_DETECTORS
+    record["detectors"][MAX_DETECTORS - 1]["persistence_ticks"] = 0
+    assert not interlocks_are_valid(record)
+
+
+def test_a_detector_may_be_all_that_its_fields_can_say() -> None:
+    """Every member of every enumeration, and the ends of what is bounded."""
+    for name, members in (
+        ("quantity", Quantity),
+        ("form", Form),
+        ("comparison", Comparison),
+        ("action", Action),
+    ):
+        assert sorted(members) == list(range(len(members)))
+        for member in members:
+            assert interlocks_are_valid(interlocks({**FORCE_LIMIT, name: member, "low": -55e3}))
+    assert interlocks_are_valid(interlocks({**FORCE_LIMIT, "horizon_s": 0.0, "smoothing_s": 0.0}))
+    assert interlocks_are_valid(interlocks({**FORCE_LIMIT, "persistence_ticks": 1}))
+
+
+@given(low=finite, high=finite, value=finite)
+def test_a_band_is_violated_on_either_side(low: float, high: float, value: float) -> None:
+    record = one(Comparison.OUTSIDE, high)
+    record["low"] = low
+    assert is_violated(record, value) == (value < low or value > high)
+
+
+def judged(form: Form, values: Iterable[float], **other: float) -> list[float]:
+    """What a detector of this form compares, tick by tick."""
+    record = one(Comparison.ABOVE, 0.0)
+    record["form"] = form
+    for name, value in other.items():
+        record[name] = value
+    trend = record_of(TREND)
+    trend["last"] = math.nan
+    return [judged_value(record, trend, value, 250e-6) for value in values]
+
+
+@given(start=finite, slope=st.floats(-1e6, 1e6))
+def test_a_value_is_compared_as_it_is(start: float, slope: float) -> None:
+    ramp = [start + slope * k for k in range(5)]
+    assert judged(Form.VALUE, ramp) == ramp
+
+
+@given(slope=st.floats(-1e7, 1e7))
+def test_a_rate_is_the_change_in_a_second(slope: float) -> None:
+    rates = judged(Form.RATE, [slope * k * 250e-6 for k in range(4)])
+    assert rates[0] == 0.0  # nothing is known before the second value
+    assert rates[1:] == pytest.approx([slope] * 3, rel=1e-9, abs=1e-9)
+
+
+def test_a_rate_is_smoothed_over_its_time() -> None:
+    ramp = [1000.0 * k * 250e-6 for k in range(401)]
+    rates = judged(Form.RATE, ramp, smoothing_s=25e-3)
+    assert rates[100] == pytest.approx(1000.0 * (1.0 - (1.0 - 0.01) ** 100), rel=1e-9)
+    assert judged(Form.RATE, ramp, smoothing_s=1e-6)[1] == pytest.approx(1000.0)
+
+
+@given(slope=st.floats(-1e7, 1e7), horizon_s=st.floats(0.0, 1.0))
+def test_a_look_ahead_goes_on_along_the_ramp(slope: float, horizon_s: float) -> None:
+    ramp = [5.0 + slope * k * 250e-6 for k in range(4)]
+    ahead = judged(Form.LOOK_AHEAD, ramp, horizon_s=horizon_s)
+    expected = 5.0 + slope * (3 * 250e-6 + horizon_s)
+    assert ahead[3] == pytest.approx(expected, rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.parametrize("form", Form)
+@pytest.mark.parametrize("broken", [math.nan, math.inf, -math.inf])
+def test_what_is_no_number_is_judged_as_such_and_leaves_nothing_behind(
+    form: Form, broken: float
+) -> None:
+    values = judged(form, [1.0, broken, 1.0, 1.0], horizon_s=0.1)
+    assert values[1] == broken or math.isnan(values[1])
+    assert values[2:] == ([0.0, 0.0] if form == Form.RATE else [1.0, 1.0])
+
+
+@pytest.mark.parametrize("latching", [0, 1])
+@pytest.mark.parametrize("action", Action)
+def test_what_takes_the_load_off_always_latches(action: Action, latching: int) -> None:
+    record = one(Comparison.ABOVE, 1.0)
+    record["action"], record["latching"] = action, latching
+    assert latches(record) == (latching == 1 or action in (Action.STOP, Action.SHUTDOWN))
+
+
+@given(modes=st.sets(st.sampled_from(Mode)))
+def test_a_detector_is_armed_in_the_modes_that_were_named(modes: set[Mode]) -> None:
+    record = one(Comparison.ABOVE, 1.0)
+    record["armed_modes"] = armed_in(*modes)
+    for mode in Mode:
+        assert check_detector(record, 2.0, mode, 0) == (1 if mode in modes else 0)
 
 
 def test_an_empty_table_is_refused() -> None:
