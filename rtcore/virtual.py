@@ -19,6 +19,7 @@ from rtcore.memory.rings import event_reader
 from rtcore.memory.segment import private_block
 from rtcore.modes import Mode
 from rtcore.program.stream import Program, ProgramWriter, resident
+from rtcore.rig.failing import lateness_ns
 from rtcore.rig.parameters import RigParameters, load_rig
 from rtcore.rig.plant import STATES
 from rtcore.rig.world import WORLD
@@ -43,11 +44,14 @@ def run_ticks(
     block = carray(pointer(block_address), 1, BLOCK)[0]
     world = carray(pointer(world_address), 1, WORLD)[0]
     for k in range(ticks):
+        late_ns = lateness_ns(world)  # nobody keeps the processor here: what it would cost is told
+        missed = max(late_ns // block.period_ns - 1, 0)
         now_ns = (first_tick + k) * block.period_ns
         if app_beats:
             block.app_heartbeat_ns = now_ns
             block.recorded = block.telemetry_published
-        cycle(block_address, core_address, world_address, twin_address, now_ns, 0, 0, 0)
+        addresses = block_address, core_address, world_address, twin_address
+        cycle(*addresses, now_ns, missed * block.period_ns, late_ns, missed)
         if states_address != 0:
             states = carray(pointer(states_address), (ticks, STATES), np.float64)
             states[k, :] = world.y

@@ -4,10 +4,12 @@ from typing import Any
 
 import numpy as np
 
+from rtcore.clock import wait_until
 from rtcore.compiled import address_of, carray, kernel, pointer
 from rtcore.core import CORE, make_core
 from rtcore.memory.layout import BLOCK
 from rtcore.memory.segment import Block, private_block
+from rtcore.rig.failing import lateness_ns, take_faults
 from rtcore.rig.parameters import RigParameters
 from rtcore.rig.twin import make_twin, move_twin
 from rtcore.rig.world import WORLD, make_world, read_world, write_world
@@ -34,12 +36,32 @@ def cycle(
     core = carray(pointer(core_address), 1, CORE)[0]
     world = carray(pointer(world_address), 1, WORLD)[0]
     period_s = core.settings.period_s
+    take_faults(world, core.injected)
     read_world(world, core.inputs, period_s)
     if twin_address != 0:
         twin = carray(pointer(twin_address), 1, WORLD)[0]
         core.observed.twin_force_n = block.twin_force_n = move_twin(twin, core.outputs, period_s)
     tick(core, block, block_address, now_ns, wakeup_latency_ns, tick_time_ns, missed)
     write_world(world, core.outputs, period_s)
+
+
+@kernel
+def cycle_on_the_clock(
+    block_address: int,
+    core_address: int,
+    world_address: int,
+    twin_address: int,
+    now_ns: int,
+    wakeup_latency_ns: int,
+    tick_time_ns: int,
+    missed: int,
+) -> None:
+    """A cycle that keeps the processor afterwards where the rig is late by fault."""
+    addresses = block_address, core_address, world_address, twin_address
+    cycle(*addresses, now_ns, wakeup_latency_ns, tick_time_ns, missed)
+    kept_ns = lateness_ns(carray(pointer(world_address), 1, WORLD)[0])
+    if kept_ns > 0:
+        wait_until(now_ns + kept_ns, kept_ns)
 
 
 class SimulatedIo:
@@ -98,12 +120,14 @@ class SimulatedIo:
         spare = private_block(int(self.block.fields["period_ns"]), seconds=0.01)
         cores, worlds, twins = (np.copy(part) for part in (self.cores, self.worlds, self._twins))
         copies = address_of(cores), address_of(worlds), address_of(twins)
-        cycle(spare.address, *copies, 0, 0, 0, 0)
-        cycle.disable_compile()  # type: ignore[attr-defined]
+        compiled: tuple[Any, ...] = (cycle, cycle_on_the_clock)
+        for kernel_of_tick in compiled:
+            kernel_of_tick(spare.address, *copies, 0, 0, 0, 0)
+            kernel_of_tick.disable_compile()
 
     def cycle(self, now_ns: int, wakeup_latency_ns: int, tick_time_ns: int, missed: int) -> None:
         """One tick."""
-        cycle(*self.addresses, now_ns, wakeup_latency_ns, tick_time_ns, missed)
+        cycle_on_the_clock(*self.addresses, now_ns, wakeup_latency_ns, tick_time_ns, missed)
 
     def close(self) -> None:
         """Nothing to leave safe: a simulated rig ends with its process."""

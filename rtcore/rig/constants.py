@@ -55,6 +55,9 @@ def plant_constants(rig: RigParameters) -> Any:
     plant["bypass_r"] = plant["bypass_k"] * laminar
     plant["bypass_linear"] = actuator.bypass_linear_m3_s_pa
 
+    least_m3 = min(actuator.volume_1_m3, actuator.volume_2_m3)
+    plant["end_stop_m"] = (1.0 - actuator.end_cap_share) * least_m3 / actuator.area_m2
+
     plant["coulomb_s_m"] = 1.0 / actuator.coulomb_m_s
     plant["unit_gain_1_s"] = rig.unit.omega_t_rad_s / (2.0 * rig.unit.zeta_t)
     plant["unit_lag_1_s"] = 2.0 * rig.unit.zeta_t * rig.unit.omega_t_rad_s

@@ -61,6 +61,16 @@ def smooth_sign(z: float) -> float:
 
 
 @inlined
+def end_stop_force(plant: Record, stroke_m: float, slip_m_s: float) -> float:
+    """Force (N) of an end cap on the piston, by Hunt and Crossley: stiffer on the way in; it never pulls."""
+    depth = abs(stroke_m) - plant.end_stop_m
+    if not depth > 0.0:
+        return 0.0
+    side = math.copysign(1.0, stroke_m)
+    return -side * plant.end_stop_n_m * depth * max(0.0, 1.0 + plant.end_stop_s_m * slip_m_s * side)
+
+
+@inlined
 def flows(plant: Record, y: Array, x_s: float, u: Array, q: Array) -> None:
     """Write the flows and forces `q` at state `y`, with the spool at `x_s` (m), under inputs `u`."""
     q[Q_PA], q[Q_AT], q[Q_PB], q[Q_BT] = land_flows(plant, x_s, y[P_S], y[P_1], y[P_2], y[P_T])
@@ -81,7 +91,8 @@ def flows(plant: Record, y: Array, x_s: float, u: Array, q: Array) -> None:
     q[F_FRICTION] = (
         plant.coulomb_n * smooth_sign(slip * plant.coulomb_s_m) + plant.viscous_n_s_m * slip
     )
-    q[F_HYDRAULIC] = plant.area_m2 * drop - q[F_FRICTION]
+    stop = end_stop_force(plant, y[X_R] - y[X_B], slip)
+    q[F_HYDRAULIC] = plant.area_m2 * drop - q[F_FRICTION] + stop
     q[F_BODY] = plant.k_pl * y[X_B] + plant.c_pl * y[V_B]
     q[F_CELL] = plant.k_lc * (y[X_R] - y[X_1]) + plant.c_lc * (y[V_R] - y[V_1])
     q[F_FIXTURE] = plant.k_2 * (y[X_1] - y[X_2]) + plant.c_2 * (y[V_1] - y[V_2])

@@ -4,17 +4,14 @@ Each acts behind the I/O boundary, on the plant or on its converters; neither lo
 than its number. Taken back, it leaves no trace but what the plant itself went through.
 """
 
-import math
 from enum import IntEnum
 from typing import NamedTuple
 
 import numpy as np
 
-from rtcore.compiled import kernel
-
 
 class Fault(IntEnum):
-    """What can be wrong. Amounts are kept by these numbers, so slot 0 is not used."""
+    """What can be wrong."""
 
     LOAD_CELL_OPEN = 1
     LOAD_CELL_FROZEN = 2
@@ -32,9 +29,6 @@ class Fault(IntEnum):
     CHAIN_OPEN = 14
     LVT_FROZEN = 15
     LVDT_OPEN = 16
-
-
-FAULT_SLOTS = len(Fault) + 1
 
 
 class FaultKind(NamedTuple):
@@ -146,14 +140,7 @@ FAULTS = {
     ),
 }
 
-_BOUNDS = np.zeros((FAULT_SLOTS, 2))
+# By `Fault`: what no rig goes beyond, whatever it is asked for.
+LOWEST, HIGHEST = np.zeros(len(Fault) + 1), np.zeros(len(Fault) + 1)
 for _fault, _kind in FAULTS.items():
-    _BOUNDS[_fault] = _kind.low, _kind.high
-
-
-@kernel
-def fault_is_valid(kind: int, amount: float) -> bool:
-    """Whether a rig takes this amount of a fault; 0 takes the fault back."""
-    if not 1 <= kind < FAULT_SLOTS or not math.isfinite(amount):
-        return False
-    return amount == 0.0 or _BOUNDS[kind, 0] <= amount <= _BOUNDS[kind, 1]
+    LOWEST[_fault], HIGHEST[_fault] = _kind.low, _kind.high

@@ -102,6 +102,8 @@ def contents(plant: Record, y: Array) -> tuple[float, float, float]:
         (plant.k_tra, y[X_2] - y[X_T]),
     ):
         energy += 0.5 * k * compression * compression
+    depth = max(0.0, abs(y[X_R] - y[X_B]) - plant.end_stop_m)
+    energy += 0.5 * plant.end_stop_n_m * depth * depth
     momentum = 0.0
     for mass, velocity in (
         (plant.m_b_kg, y[V_B]),
@@ -145,6 +147,15 @@ def oil_heat(plant: Record, y: Array, q: Array) -> float:
 
 
 @kernel
+def _end_stop_heat(plant: Record, stroke_m: float, slip_m_s: float) -> float:
+    """What the end cap takes more on the way in than it gives back on the way out."""
+    depth = max(0.0, abs(stroke_m) - plant.end_stop_m)
+    inward = slip_m_s if stroke_m > 0.0 else -slip_m_s
+    extra = max(-1.0, plant.end_stop_s_m * inward)
+    return plant.end_stop_n_m * depth * extra * inward
+
+
+@kernel
 def solid_heat(plant: Record, y: Array) -> float:
     """Power (W) lost in friction and dampers."""
     slip = y[V_R] - y[V_B]
@@ -158,7 +169,7 @@ def solid_heat(plant: Record, y: Array) -> float:
         (plant.c_tra, y[V_2] - y[V_T]),
     ):
         heat += c * rate * rate
-    return heat
+    return heat + _end_stop_heat(plant, y[X_R] - y[X_B], slip)
 
 
 @kernel

@@ -106,6 +106,13 @@ class LoadActuator(_Part):
         ge=1e-5, le=0.1, description="velocity over which friction turns round"
     )
     viscous_n_s_m: NotNegative = Field(le=1e5)
+    end_cap_share: float = Field(
+        ge=0.01,
+        le=0.9,
+        description="left of the smaller chamber where the piston meets its end cap",
+    )
+    end_stop_n_m: float = Field(ge=1e6, le=2e9, description="stiffness of piston on end cap")
+    end_stop_s_m: NotNegative = Field(le=10, description="more force at a speed, share a m/s")
 
 
 class Structure(_Part):

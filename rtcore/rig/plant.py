@@ -60,7 +60,7 @@ PLANT = np.dtype(
             # load actuator
             "area_m2", "volume_1_m3", "volume_2_m3", "bypass_r", "bypass_k", "bypass_linear",
             "leak_m3_s_pa", "drain_1_m3_s_pa", "drain_2_m3_s_pa", "drain_pa",
-            "coulomb_n", "coulomb_s_m", "viscous_n_s_m",
+            "coulomb_n", "coulomb_s_m", "viscous_n_s_m", "end_stop_m", "end_stop_n_m", "end_stop_s_m",
             # structure
             "m_b_kg", "m_la_kg", "m_1_kg", "m_2_kg", "k_pl", "c_pl", "k_lc", "c_lc", "k_2", "c_2",
             # unit under test

@@ -29,6 +29,7 @@ def fastest_part(rig: "RigParameters") -> tuple[str, float]:
     stop_damping = valve.zeta_f * (1.0 + valve.flapper_stop_c) * valve.omega_f_rad_s / stop_rad_s
     rates = {
         "structure": structure_rate(rig),
+        "piston on its end stop": end_stop_rate(rig),
         "servovalve's flapper": second_order_rate(valve.omega_f_rad_s, valve.zeta_f),
         "flapper's stop": second_order_rate(stop_rad_s, stop_damping) / STEPS_AT_STOP,
         "load cell's chain": second_order_rate(sensors.omega_lc_rad_s, sensors.zeta_lc),
@@ -40,6 +41,12 @@ def fastest_part(rig: "RigParameters") -> tuple[str, float]:
 def second_order_rate(omega_rad_s: float, zeta: float) -> float:
     """Of s² + 2ζωs + ω²."""
     return omega_rad_s * (zeta + math.sqrt(zeta * zeta - 1.0) if zeta > 1.0 else 1.0)
+
+
+def end_stop_rate(rig: "RigParameters") -> float:
+    """Of the rod between its load cell and the end cap."""
+    stiffness = rig.load_actuator.end_stop_n_m + rig.structure.k_lc
+    return math.sqrt(stiffness / rig.structure.m_la_kg)
 
 
 def structure_rate(rig: "RigParameters") -> float:

@@ -43,3 +43,4 @@ def read_sensors(sensors: Record, plant: Record, noise: Record, y: Array, inputs
     inputs.pressure_1_pa = quantise(y[P_1], sensors.pressure_lsb_pa, codes)
     inputs.pressure_2_pa = quantise(y[P_2], sensors.pressure_lsb_pa, codes)
     inputs.supply_pressure_pa = quantise(y[P_S], sensors.pressure_lsb_pa, codes)
+    inputs.chain = 1

@@ -8,6 +8,12 @@ import numpy.typing as npt
 from rtcore.compiled import Record, kernel
 from rtcore.io import SUPPLY_HIGH, SUPPLY_LOW, SUPPLY_OFF
 from rtcore.rig.constants import plant_constants
+from rtcore.rig.failing import (
+    FAILING,
+    remember_what_is_right,
+    spoil_plant_inputs,
+    spoil_sensors,
+)
 from rtcore.rig.integrate import WORK, advance, settle_gas
 from rtcore.rig.noise import NOISE, seed_noise
 from rtcore.rig.parameters import RigParameters
@@ -40,6 +46,7 @@ WORLD = np.dtype(
         ("high_pa", "f8"),
         ("low_pa", "f8"),
         ("ramp_pa_s", "f8"),
+        ("failing", FAILING),
     ],
     align=True,
 )
@@ -71,6 +78,7 @@ def make_world(rig: RigParameters, seed: int) -> npt.NDArray[Any]:
     settle_gas(world["plant"], y)
     world["u"][U_PUMP] = rig.supply.tank_pa
     world["u"][U_BLEED] = 1.0
+    remember_what_is_right(world["failing"], world["plant"], sensors)
     return worlds
 
 
@@ -93,8 +101,12 @@ def move_pump(world: Record, supply: int, period_s: float) -> None:
 @kernel
 def read_world(world: Record, inputs: Record, period_s: float) -> None:
     """Carry the plant to now under what was held, and read its sensors."""
+    failing = world.failing
+    force_before_n, velocity_before_m_s = inputs.force_n, inputs.velocity_m_s
     advance(world.plant, world.y, world.u, world.work, period_s, SUBSTEPS)
     read_sensors(world.sensors, world.plant, world.noise, world.y, inputs)
+    if failing.present != 0:
+        spoil_sensors(failing, world.sensors, inputs, force_before_n, velocity_before_m_s, period_s)
 
 
 @kernel
@@ -106,3 +118,5 @@ def write_world(world: Record, outputs: Record, period_s: float) -> None:
     world.held_valve = quantise(outputs.valve_command, sensors.valve_lsb, sensors.half_codes)
     world.held_unit_m = outputs.displacement_command_m
     move_pump(world, outputs.supply, period_s)
+    if world.failing.present != 0:
+        spoil_plant_inputs(world.failing.amounts, world.plant, world.u)

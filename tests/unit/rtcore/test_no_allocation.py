@@ -19,6 +19,7 @@ from rtcore.io.simulated import cycle
 from rtcore.loop import account, keep_time, warm_up
 from rtcore.memory.commands import acknowledgement, post
 from rtcore.modes import Mode
+from rtcore.rig.faults import FAULTS, Fault
 from rtcore.virtual import Virtual
 from tests.unit.rtcore.programs import gains, harmonic, interlocks, program
 
@@ -129,6 +130,21 @@ def test_a_run_with_all_that_may_happen_in_it_allocates_and_compiles_nothing(rig
     answers = [reply and reply[0] for reply in replies]
     assert answers == [Reply.ACCEPTED] * (len(orders) - 1) + [Reply.CAUSE_PRESENT]
     assert rig.block.fields["snapshot"]["deadlines_missed"] > 0
+
+
+def test_a_rig_with_every_fault_in_turn_allocates_and_compiles_nothing(rig: Virtual) -> None:
+    io, amounts = rig.io, rig.io.core["injected"]
+    late = {Fault.LATE_TICKS}  # which would take its time
+
+    def break_and_mend() -> None:
+        for fault in set(Fault) - late:
+            for amount in (FAULTS[fault].default, 0.0):
+                amounts[fault] = amount
+                for k in range(100):
+                    io.cycle(k, 0, 0, 0)
+
+    io.cycle(0, 0, 0, 0)
+    assert growth(break_and_mend) == (0, [])
 
 
 def test_the_count_would_see_an_allocation() -> None:
