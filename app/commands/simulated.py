@@ -7,9 +7,9 @@ from rich.table import Table
 from app.analysis.acceptance import Verdict
 from app.commands.output import text_console
 from app.documents.units import say
-from app.link.words import QUANTITIES
-from app.prediction.schemas import Prediction, PredictionVerdict
-from rtcore.interlocks import Quantity
+from app.link.words import Judging
+from app.prediction.schemas import Margin, Prediction, PredictionVerdict
+from rtcore.interlocks import Comparison, Form, Quantity
 
 COLOURS = {
     PredictionVerdict.CLEAR: "green",
@@ -48,6 +48,12 @@ def _criteria(told: dict[str, Any]) -> Table:
     return table
 
 
+def _judging(m: Margin) -> Judging:
+    band = Comparison.ABOVE if m.low is None else Comparison.OUTSIDE
+    quantity, form = Quantity[m.quantity.upper()], Form[m.form.upper()]
+    return Judging(quantity, form, band, m.threshold, m.low, None)
+
+
 def print_prediction(prediction: Prediction) -> None:
     """How near each interlock comes, what stands against the test, and the verdict."""
     console = text_console()
@@ -55,12 +61,12 @@ def print_prediction(prediction: Prediction) -> None:
     for heading in ("reaches", "limit", "margin", "at"):
         table.add_column(heading, justify="right")
     for m in prediction.margins:
-        write = QUANTITIES[Quantity[m.quantity.upper()]].write
-        reaches = "" if m.extreme is None else write(m.extreme)
+        judging = _judging(m)
+        reaches = "" if m.extreme is None else judging.write(m.extreme)
         share = "" if m.margin_share is None else f"{100 * m.margin_share:.0f} %"
         at = "" if m.time_s is None else f"{m.time_s:,.3f} s"
         trips = m.margin is not None and m.margin < 0
-        row = (m.detector, m.note or reaches, write(m.threshold), share, at)
+        row = (m.detector, m.note or reaches, judging.allowed(), share, at)
         table.add_row(*row, style="red" if trips else "dim" if m.margin is None else "")
     console.print(table)
     for reason in prediction.reasons:

@@ -1,5 +1,6 @@
 """Enumerations of the loop as the words that people write."""
 
+from collections.abc import Mapping
 from enum import IntEnum
 from typing import Any
 
@@ -11,10 +12,14 @@ from app.documents.messages import nearest
 
 
 class ByName:
-    """Annotates an IntEnum that documents write as the lower-case name of its member."""
+    """Annotates an IntEnum that documents write as the lower-case name of its member.
 
-    def __init__(self, members: type[IntEnum]) -> None:
+    `gone` says of names that there are no more what to write instead.
+    """
+
+    def __init__(self, members: type[IntEnum], gone: Mapping[str, str] | None = None) -> None:
         self.type = members
+        self.gone = gone or {}
         self.members = {member.name.lower(): member for member in members}
 
     def read(self, value: Any) -> IntEnum:
@@ -23,6 +28,8 @@ class ByName:
             return self.members[value]
         if isinstance(value, self.type):
             return value
+        if isinstance(value, str) and value in self.gone:
+            raise wrong("", self.gone[value], value=value)
         guess = nearest(value, self.members) if isinstance(value, str) else ""
         raise wrong("", f"must be one of {', '.join(self.members)}{guess}", value=value)
 

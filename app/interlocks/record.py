@@ -9,7 +9,7 @@ from app.documents.reading import read_data, read_file
 from app.errors import Code, Refusal
 from app.interlocks.table import Interlocks
 from app.link.words import trip_text
-from rtcore.interlocks import DETECTOR, INTERLOCKS, Form, armed_in
+from rtcore.interlocks import DETECTOR, INTERLOCKS, armed_in
 
 
 def to_record(interlocks: Interlocks, period_s: float) -> Any:
@@ -19,17 +19,17 @@ def to_record(interlocks: Interlocks, period_s: float) -> Any:
     for i, d in enumerate(interlocks.detectors):
         values = {
             "quantity": d.quantity,
-            "form": Form.VALUE,
+            "form": d.form,
             "comparison": d.comparison,
             "action": d.action,
             "enabled": d.enabled,
-            "latching": True,
+            "latching": d.latching,
             "armed_modes": armed_in(*d.armed),
             "persistence_ticks": d.persistence_ticks(period_s),
             "threshold": d.threshold,
-            "low": 0.0,
-            "horizon_s": 0.0,
-            "smoothing_s": 0.0,
+            "low": d.low or 0.0,
+            "horizon_s": d.horizon_s or 0.0,
+            "smoothing_s": d.smoothing_s or 0.0,
         }
         record["detectors"][i] = tuple(values[name] for name in DETECTOR.names or ())
     return record

@@ -1,49 +1,42 @@
-"""The table of detectors: frozen and bounded."""
+"""The table of detectors: frozen, bounded, and without contradictions."""
 
-from typing import Annotated, Self
+from collections.abc import Iterator
+from typing import Any, Self
 
 from pydantic import Field, model_validator
 
-from app.documents.fields import Document, wrong
-from app.documents.units import unit_of
-from app.interlocks.names import ByName
-from rtcore.interlocks import MAX_DETECTORS, Action, Comparison, Quantity
-from rtcore.modes import Mode
+from app.documents.fields import Document, all_wrong, wrong
+from app.documents.tree import Path
+from app.interlocks.detector import Detector, Name
+from app.interlocks.sense import faults_of
+from rtcore.interlocks import MAX_DETECTORS
 
-ArmedMode = Annotated[Mode, ByName(Mode)]
-
-
-class Detector(Document):
-    """Watches one quantity, and acts once it has been beyond its threshold for long enough."""
-
-    name: str = Field(pattern=r"^[a-z][a-z0-9_]*$", max_length=40)
-    quantity: Annotated[Quantity, ByName(Quantity)]
-    comparison: Annotated[Comparison, ByName(Comparison)]
-    threshold: float = Field(ge=-1e9, le=1e9, description="in the unit that the quantity ends in")
-    persistence_s: float = Field(default=0.0, ge=0, le=60, description="0: trips at once")
-    action: Annotated[Action, ByName(Action)]
-    armed: tuple[ArmedMode, ...] = Field(min_length=1)
-    enabled: bool = True
-
-    @property
-    def unit(self) -> str | None:
-        """The unit of the threshold."""
-        return unit_of(self.quantity.name.lower())
-
-    def persistence_ticks(self, period_s: float) -> int:
-        """How many ticks it must be violated, at least 1."""
-        return max(1, round(self.persistence_s / period_s))
+__all__ = ["Detector", "Interlocks"]
 
 
 class Interlocks(Document):
-    """All detectors; the first to trip is kept until reset."""
+    """All detectors, in the order in which the loop evaluates them.
+
+    `knowingly_weaker` names the guarded detectors (`app.interlocks.safeguards`) that this table falls
+    short of on purpose.
+    """
 
     detectors: tuple[Detector, ...] = Field(min_length=1, max_length=MAX_DETECTORS)
+    knowingly_weaker: tuple[Name, ...] = Field(default=(), max_length=MAX_DETECTORS)
 
     @model_validator(mode="after")
-    def _told_apart(self) -> Self:
-        names = [detector.name for detector in self.detectors]
-        twice = next((name for i, name in enumerate(names) if name in names[:i]), None)
-        if twice:
-            raise wrong("detectors", f"two detectors are named {twice}", value=twice)
+    def _makes_sense(self) -> Self:
+        found = [*self._named_twice(), *self._senseless()]
+        if found:
+            raise all_wrong("Interlocks", found)
         return self
+
+    def _named_twice(self) -> Iterator[tuple[Path, Any]]:
+        names = [detector.name for detector in self.detectors]
+        for i, name in enumerate(names):
+            if name in names[:i]:
+                yield ("detectors", i), wrong("name", f"two detectors are named {name}", value=name)
+
+    def _senseless(self) -> Iterator[tuple[Path, Any]]:
+        for i, detector in enumerate(self.detectors):
+            yield from ((("detectors", i), fault) for fault in faults_of(detector))

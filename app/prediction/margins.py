@@ -4,7 +4,7 @@ import math
 from typing import Any
 
 from app.definitions.limits import RIG
-from app.documents.units import unit_of
+from app.interlocks.margin import share
 from app.interlocks.table import Detector, Interlocks
 from app.prediction.schemas import Margin
 from app.prediction.watch import NOT_PREDICTED, SENSORS, Watch
@@ -30,16 +30,17 @@ def _margin(detector: Detector, extreme: Any) -> Margin:
         excess = max(1.0, abs(detector.threshold))
     known = math.isfinite(excess) and note in ("", NO_NUMBER)
     tick = int(extreme["tick"])
-    share = -excess / abs(detector.threshold) if known and detector.threshold != 0 else None
-    sign = -1.0 if detector.comparison is Comparison.BELOW else 1.0
+    margin = -excess if known else None
     return Margin(
         detector=detector.name,
         quantity=detector.quantity.name.lower(),
-        unit=unit_of(detector.quantity.name.lower()),
+        form=detector.form.name.lower(),
+        unit=detector.unit,
         threshold=detector.threshold,
-        extreme=detector.threshold + sign * excess if known and not note else None,
-        margin=-excess if known else None,
-        margin_share=share,
+        low=detector.low,
+        extreme=_extreme(detector, excess, extreme) if known and not note else None,
+        margin=margin,
+        margin_share=share(detector, margin),
         tick=tick if known else None,
         time_s=tick * RIG.period_s if known else None,
         block=int(extreme["block"]) if known and extreme["block"] >= 0 else None,
@@ -47,6 +48,14 @@ def _margin(detector: Detector, extreme: Any) -> Margin:
         predicted=note not in (LIVE_ONLY, NO_FAULTS),
         note=note,
     )
+
+
+def _extreme(detector: Detector, excess: float, extreme: Any) -> float:
+    """The value that is so far beyond, or short of, the end that it comes nearest to."""
+    if detector.comparison is Comparison.OUTSIDE and extreme["below"] and detector.low is not None:
+        return detector.low - excess
+    sign = -1.0 if detector.comparison is Comparison.BELOW else 1.0
+    return detector.threshold + sign * excess
 
 
 def _note(detector: Detector, extreme: Any) -> str:

@@ -128,7 +128,7 @@ def made_ready(setup: Setup, kept_ticks: int = 0) -> Play | Refusal:
         rig = _ready(setup)
     except (RuntimeError, ValueError) as error:
         return Refusal(Code.INVALID_REQUEST, f"The virtual rig does not become ready: {error}")
-    if int(rig.io.core["trips"]) != 0:
+    if int(rig.io.core["blocking"]) != 0:
         detail = "An interlock is latched as soon as the virtual rig is ready: no test could start"
         return Refusal(Code.CAUSE_PRESENT, detail)
     if rig.load_program(expand(setup.definition)) != Reply.ACCEPTED:
@@ -153,6 +153,6 @@ def _ready(setup: Setup) -> WatchedRig:
         if not settles:
             break
         rig.advance(round(SETTLED_S / RIG.period_s))
-        if rig.mode == Mode.READY and int(rig.io.core["trips"]) == 0:
+        if rig.mode == Mode.READY and int(rig.io.core["blocking"]) == 0:
             break
     return rig

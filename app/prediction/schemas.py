@@ -37,14 +37,17 @@ class CutOut(BaseModel):
 class Margin(BaseModel):
     """How near a detector comes to its trip.
 
+    `threshold` is the upper end of a band, `low` its lower one.
     `extreme` is the value that lasts as long as the detector wants it to; `margin` is what is left to the
     threshold, below zero where it trips. Both are null where nothing can be said, and `note` says why.
     """
 
     detector: str
     quantity: str
+    form: str = "value"
     unit: str | None
     threshold: float
+    low: float | None = None
     extreme: float | None
     margin: float | None
     margin_share: float | None

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from app.interlocks.table import Detector, Interlocks
-from app.link.words import QUANTITIES
+from app.link.words import NAMED, QUANTITIES, Judging
 from app.prediction.schemas import (
     BlockPrediction,
     CriterionOut,
@@ -78,14 +78,12 @@ def _trips(found: Findings) -> Iterator[Reason]:
 
 def _reached(detector: Detector, margin: Margin, where: str) -> str:
     """`Force would reach 56,000 N in block 2 at 1.20 s, limit 55,000 N`."""
-    if detector.quantity in SENSORS:
-        return f"A sensor would come to the end of its range{where}"
-    words = QUANTITIES[detector.quantity]
-    reached = "not a number" if margin.extreme is None else words.write(margin.extreme)
+    judging = Judging.of_detector(detector)
+    reached = "not a number" if margin.extreme is None else judging.write(margin.extreme)
+    if detector.quantity in NAMED:
+        return f"{judging.name()} would be {reached}{where}"
     lasting = f" for {detector.persistence_s * 1e3:g} ms" if detector.persistence_s else ""
-    return (
-        f"{words.name} would reach {reached}{lasting}{where}, limit {words.write(margin.threshold)}"
-    )
+    return f"{judging.name()} would reach {reached}{lasting}{where}, {judging.limit()}"
 
 
 _DOES = {
@@ -95,10 +93,14 @@ _DOES = {
     Action.SHUTDOWN: "would shut the rig down",
 }
 _GENTLER = "Ask for less load there, or for a slower change"
+_COMPENSATE = "Turn on compensation of amplitude, or ask for a lower frequency"
 _REMEDY = {
-    Quantity.FORCE_N: _GENTLER,
-    Quantity.FORCE_ERROR_N: _GENTLER,
+    **dict.fromkeys(
+        (Quantity.FORCE_N, Quantity.FORCE_ERROR_N, Quantity.VALVE_SATURATION), _GENTLER
+    ),
+    **dict.fromkeys((Quantity.FORCE_ERROR_RELATIVE, Quantity.UNDERPEAK), _COMPENSATE),
     Quantity.DISPLACEMENT_M: "Ask for less motion there",
+    Quantity.DISPLACEMENT_ERROR_M: "Ask for a slower motion there",
     Quantity.VELOCITY_M_S: "Ask for a slower motion there, or for less load at a high frequency",
     Quantity.SUPPLY_PRESSURE_PA: "Ask for less at a time, or raise the supply pressure",
     **dict.fromkeys(SENSORS, _GENTLER),
@@ -141,18 +143,19 @@ def _saturates_often(found: Findings) -> Iterator[Reason]:
 
 
 def _little_margin(found: Findings) -> Iterator[Reason]:
-    detectors = {d.name: d for d in found.interlocks.detectors}
+    """Of what acts: an indication that comes up does no harm."""
+    detectors = {d.name: d for d in found.interlocks.detectors if d.action > Action.INDICATE}
     for margin in found.margins:
-        share = margin.margin_share
-        quantity = detectors[margin.detector].quantity
-        least = LEAST_MARGIN_SHARE.get(quantity, LEAST_MARGIN_SHARE_ELSE)
-        if share is None or margin.extreme is None or not 0 <= share < least:
+        share, detector = margin.margin_share, detectors.get(margin.detector)
+        if detector is None or share is None or margin.extreme is None:
             continue
-        words = QUANTITIES[quantity]
+        if not 0 <= share < LEAST_MARGIN_SHARE.get(detector.quantity, LEAST_MARGIN_SHARE_ELSE):
+            continue
+        judging = Judging.of_detector(detector)
         text = (
-            f"{words.name} would reach {words.write(margin.extreme)}"
-            f"{_where(margin.block, margin.time_s)}: {100 * share:.0f} % from the limit"
-            f" {words.write(margin.threshold)} of the interlock {margin.detector}"
+            f"{judging.name()} would reach {judging.write(margin.extreme)}"
+            f"{_where(margin.block, margin.time_s)}: {100 * share:.0f} % from the limit {judging.allowed()}"
+            f" of the interlock {margin.detector}"
         )
         yield _reason("little_margin", text, "caution", margin.block, margin.time_s)
 

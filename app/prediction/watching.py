@@ -25,6 +25,7 @@ EXTREME = np.dtype(
         ("excess", "f8"),  # beyond the threshold, the greatest least of a stretch; -inf for none
         ("tick", "i8"),  # of the run, from 0
         ("block", "i8"),
+        ("below", "i8"),  # whether it was at the lower end of a band
         ("armed", "i8"),  # ticks on end, until now
         ("ever_armed", "i8"),
         ("place", "i8"),  # of its stretch in the memory of all
@@ -89,17 +90,30 @@ def excess_of(detector: Record, value: float) -> float:
 
 
 @kernel
-def _least_of_stretch(e: Record, lows: Array, ends: Array, excess: float, now: int) -> float:
-    """The least of the last `room` values; `lows` and `ends` keep those that may yet be it."""
+def is_at_lower_end(detector: Record, value: float) -> bool:
+    """Whether the lower end of a band is the nearer one."""
+    band = detector.comparison == Comparison.OUTSIDE
+    return bool(band and detector.low - value > value - detector.threshold)
+
+
+@kernel
+def _least_of_stretch(
+    e: Record, lows: Array, ends: Array, excess: float, below: bool, now: int
+) -> tuple[float, bool]:
+    """The least of the last `room` values and its end of the band.
+
+    `lows` and `ends` keep those that may yet be it: `ends` twice the tick, and 1 more at the lower end.
+    """
     room, place = e.room, e.place
     while e.tail > e.head and lows[place + (e.tail - 1) % room] >= excess:
         e.tail -= 1
-    if e.tail > e.head and ends[place + e.head % room] <= now - room:
+    if e.tail > e.head and ends[place + e.head % room] // 2 <= now - room:
         e.head += 1
     lows[place + e.tail % room] = excess
-    ends[place + e.tail % room] = now
+    ends[place + e.tail % room] = 2 * now + int(below)
     e.tail += 1
-    return float(lows[place + e.head % room])
+    least = place + e.head % room
+    return float(lows[least]), ends[least] % 2 == 1
 
 
 @kernel
@@ -116,11 +130,12 @@ def _watch_detectors(
             continue
         e.armed += 1
         e.ever_armed += 1
-        excess = excess_of(d, core.judged[i])
+        excess, below = excess_of(d, core.judged[i]), is_at_lower_end(d, core.judged[i])
         if e.room > 1:
-            excess = _least_of_stretch(e, lows, ends, excess, w.ticks)
+            excess, below = _least_of_stretch(e, lows, ends, excess, below, w.ticks)
         if e.armed >= e.room and excess > e.excess:
             e.excess = excess
+            e.below = below
             e.tick = w.ticks
             e.block = block
 

@@ -11,17 +11,17 @@ from app.definitions.reading import definition_from
 from app.interlocks.table import Detector, Interlocks
 from app.prediction.play import Play, made_ready
 from app.prediction.setup import Setup
-from rtcore.interlocks import MAX_DETECTORS, Action, Comparison, Quantity
+from rtcore.interlocks import MAX_DETECTORS, Action, Comparison, Form, Quantity
 from rtcore.modes import Mode
 from rtcore.rig.parameters import load_rig
 
 IN_A_RUN = (Mode.RUNNING, Mode.HOLDING, Mode.STOPPING)
-# What each quantity reaches in the tests below, so that a threshold drawn from it is now passed, now not.
+# What each quantity and its rate reach in the tests below, so that a threshold drawn from it is now passed, now not.
 RANGES = {
-    Quantity.FORCE_N: 12e3,
-    Quantity.FORCE_ERROR_N: 10e3,
-    Quantity.DISPLACEMENT_M: 2.2e-3,
-    Quantity.VELOCITY_M_S: 0.15,
+    Quantity.FORCE_N: (12e3, 4e6),
+    Quantity.FORCE_ERROR_N: (10e3, 4e6),
+    Quantity.DISPLACEMENT_M: (2.2e-3, 0.1),
+    Quantity.VELOCITY_M_S: (0.15, 40.0),
 }
 
 
@@ -45,15 +45,21 @@ def _definition(rng: np.random.Generator) -> Definition:
 
 def _detector(rng: np.random.Generator, number: int) -> Detector:
     quantity = list(RANGES)[int(rng.integers(len(RANGES)))]
-    comparison = Comparison(int(rng.integers(3)))
-    scale = RANGES[quantity] * (-1.0 if comparison is Comparison.BELOW else 1.0)
-    persistence_s = float(rng.choice([0.0, 0.0005, 0.002, 0.008, 0.04, 0.3]))
+    form = Form(int(rng.integers(len(Form))))
+    comparison = Comparison(int(rng.integers(len(Comparison))))
+    scale = RANGES[quantity][form is Form.RATE] * float(rng.uniform(0.0, 1.0)) ** 2
     return Detector(
         name=f"drawn_{number}",
         quantity=quantity,
+        form=form,
         comparison=comparison,
-        threshold=scale * float(rng.uniform(0.0, 1.0)) ** 2,
-        persistence_s=persistence_s,
+        threshold=-scale if comparison is Comparison.BELOW else scale,
+        low=-float(rng.uniform(0.5, 2.0)) * scale - 1e-9
+        if comparison is Comparison.OUTSIDE
+        else None,
+        horizon_s=float(rng.choice([0.0005, 0.004])) if form is Form.LOOK_AHEAD else None,
+        smoothing_s=float(rng.choice([0.0005, 0.005])) if form is not Form.VALUE else None,
+        persistence_s=float(rng.choice([0.0, 0.0005, 0.002, 0.008, 0.04, 0.3])),
         action=Action.INDICATE,
         armed=IN_A_RUN if rng.uniform() < 0.8 else (Mode.RUNNING,),
         enabled=bool(rng.uniform() < 0.95),
@@ -81,7 +87,7 @@ def test_an_excess_is_above_zero_exactly_where_the_loop_trips(seed: int) -> None
     tripped = [bool(trips >> i & 1) for i in range(MAX_DETECTORS)]
     predicted = [bool(e["excess"] > 0) for e in play.watch.extremes]
     assert predicted == tripped
-    assert 4 < sum(tripped) < 28  # it can tell the one from the other
+    assert 8 < sum(tripped) < 56  # it can tell the one from the other
 
 
 def test_a_threshold_at_the_very_extreme_does_not_trip_and_the_next_number_below_does() -> None:
