@@ -17,7 +17,7 @@ _POLICY = "; ".join(
         "default-src 'self'",
         "style-src 'self' 'unsafe-inline'",  # Svelte and uPlot place things by style attributes
         "img-src 'self' data: blob:",
-        "connect-src 'self'",
+        "connect-src 'self'{stop}",
         "object-src 'none'",
         "base-uri 'none'",
         "form-action 'self'",
@@ -25,7 +25,6 @@ _POLICY = "; ".join(
     )
 )
 _HEADERS = {
-    "Content-Security-Policy": _POLICY,
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
     "Referrer-Policy": "no-referrer",
@@ -55,6 +54,12 @@ def _is_address(name: str) -> bool:
     return True
 
 
+def is_known_host(host: str, hosts: Collection[str]) -> bool:
+    """Whether this machine may be asked under a Host header's name. Raises `ValueError` where it is none."""
+    name = _host_name(host)
+    return name in hosts or _is_address(name)
+
+
 def refuse(
     method: str, headers: Headers, hosts: Collection[str], *, socket: bool
 ) -> Refusal | None:
@@ -69,7 +74,7 @@ def refuse(
         theirs = None if origin is None else urlsplit(origin).netloc.lower()
     except ValueError:
         return Refusal(Code.UNKNOWN_HOST, "The host or origin of this request cannot be read")
-    if name not in hosts and not _is_address(name):
+    if not is_known_host(host, hosts):
         detail = f"This console is not known as {name!r}: add the name to FORCERIG_ALLOWED_HOSTS"
         return Refusal(Code.UNKNOWN_HOST, detail)
     if method in _SAFE and not socket:
@@ -81,11 +86,15 @@ def refuse(
 
 
 class Guard:
-    """ASGI middleware that refuses foreign requests, and puts security headers on every answer."""
+    """ASGI middleware that refuses foreign requests, and puts security headers on every answer.
 
-    def __init__(self, app: ASGIApp, hosts: Collection[str]) -> None:
+    `stop_port` is that of Stop's own path, which the console's pages may ask too.
+    """
+
+    def __init__(self, app: ASGIApp, hosts: Collection[str], stop_port: int | None = None) -> None:
         self._app = app
         self._hosts = hosts
+        self._stop_port = stop_port
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
@@ -103,13 +112,21 @@ class Guard:
                 await send({"type": "websocket.close", "code": 1008, "reason": refusal.detail})
             return
         app = self._app if refusal is None else problem(refusal)
-        await app(scope, receive, _with_headers(send, _headers_for(scope)))
+        stop = self._stop_path(scope) if refusal is None else ""
+        await app(scope, receive, _with_headers(send, _headers_for(scope, stop)))
+
+    def _stop_path(self, scope: Scope) -> str:
+        """As the policy names it. A policy cannot name an address of IPv6: there, pages go without."""
+        name = _host_name(Headers(scope=scope).get("host", ""))
+        known = self._stop_port is not None and ":" not in name
+        return f" {scope.get('scheme', 'http')}://{name}:{self._stop_port}" if known else ""
 
 
-def _headers_for(scope: Scope) -> dict[str, str]:
+def _headers_for(scope: Scope, stop: str) -> dict[str, str]:
     of_persons = scope["path"].startswith(("/api/", "/sign-in"))
     tls = scope.get("scheme") == "https"
-    return _HEADERS | (_UNDER_TLS if tls else {}) | (_OF_PERSONS if of_persons else {})
+    policy = {"Content-Security-Policy": _POLICY.format(stop=stop)}
+    return policy | _HEADERS | (_UNDER_TLS if tls else {}) | (_OF_PERSONS if of_persons else {})
 
 
 def _with_headers(send: Send, wanted: dict[str, str]) -> Send:

@@ -17,6 +17,7 @@ class Settings(BaseSettings):
 
     host: str = "127.0.0.1"
     port: Annotated[int, Field(ge=0, le=65535)] = 8000  # 0: any free one
+    stop_port: Annotated[int, Field(ge=0, le=65535)] | None = None  # None: the one after `port`
     data_dir: Path = Path("data")
     database_url: str | None = None  # None: SQLite in the data directory
     tls_cert: Path | None = None  # with its key: the console speaks HTTPS

@@ -3,6 +3,7 @@
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from app.errors import Code, Refusal
 from app.link.life import Life
@@ -30,6 +31,11 @@ class Stopped:
     mode: Mode
     tick: int
 
+    @staticmethod
+    def of(record: Any) -> "Stopped":
+        """As a telemetry record has it."""
+        return Stopped(Mode(int(record["mode"])), int(record["tick"]))
+
 
 def stop(life: Life | None, within_s: float = CONFIRMED_S) -> Stopped | Refusal:
     """Have the loop stop, and wait for its word. Without a test there is nothing to stop: that is done."""
@@ -41,10 +47,9 @@ def stop(life: Life | None, within_s: float = CONFIRMED_S) -> Stopped | Refusal:
     deadline = time.monotonic() + within_s
     while True:
         record = life.snapshot()
-        if record is not None and int(record["tick"]) >= seen_tick:
-            mode = Mode(int(record["mode"]))
-            if mode not in _UNDER_LOAD:
-                return Stopped(mode, int(record["tick"]))
+        now = None if record is None else Stopped.of(record)
+        if now is not None and now.tick >= seen_tick and now.mode not in _UNDER_LOAD:
+            return now
         if time.monotonic() >= deadline:
             return _SILENT
         time.sleep(_POLL_S)
