@@ -16,7 +16,7 @@ interface Event {
   readonly time_s: number;
 }
 
-const MARKED: ReadonlySet<string> = new Set(["command", "program_ended"]);
+const MARKED: ReadonlySet<string> = new Set(["command", "program_ended", "fault", "stop_asked"]);
 
 /** What of a run's events is marked: blocks, trips, and what people did. */
 export function marksOf(events: readonly Event[]): readonly Mark[] {

@@ -38,7 +38,7 @@ class Runs {
     try {
       const page = await listRuns(apiQuery(this.filters), null, signal);
       if (signal.aborted) return;
-      const state = merged(this.current ? this.list : null, this.next, page);
+      const state = merged(this.current ? this.list : null, this.next, { list: page.runs, next: page.next });
       this.list = state.list;
       this.next = state.next;
       this.current = true;
