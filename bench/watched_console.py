@@ -74,6 +74,7 @@ def _console(folder: str) -> Iterator[httpx2.Client]:
     for detector in interlocks["detectors"]:
         if detector["name"] == "deadlines_missed":  # other work may hold up this machine
             detector["threshold"] = 1e6
+    interlocks["knowingly_weaker"] = ["deadlines_missed"]
     table = Path(folder) / "interlocks.json"
     table.write_text(json.dumps(interlocks))
     environment = os.environ | {

@@ -46,7 +46,8 @@ def interlocks_file(folder: Path) -> Path:
     """Detectors that indicate, beside all as shipped but the one on missed deadlines."""
     shipped = indicating().detectors
     table = Interlocks(
-        detectors=tuple(d for d in shipped if d.quantity != Quantity.DEADLINES_MISSED)
+        detectors=tuple(d for d in shipped if d.quantity != Quantity.DEADLINES_MISSED),
+        knowingly_weaker=("deadlines_missed",),
     )
     path = folder / "indicating.json"
     path.write_text(json.dumps(table.model_dump(mode="json")))
