@@ -4,7 +4,7 @@ import { COMMANDS } from "./live/operate";
 import type { Command } from "./live/types";
 
 type KeyOfView =
-  | ("help" | "theme")
+  | ("help" | "theme" | "control")
   | ("operate" | "tests" | "runs" | "interlocks" | "drills" | "system")
   | ("acknowledge" | "pause" | "shorter" | "longer" | "stage");
 
@@ -22,6 +22,7 @@ export interface KeyInfo {
 
 /** Keys of the view. Those of commands are in `COMMANDS`. */
 export const VIEW_KEYS: readonly KeyInfo[] = [
+  { key: "c", does: "Command of the rig: take, ask for, release", action: { kind: "control" } },
   { key: "a", does: "Acknowledge trips", action: { kind: "acknowledge" } },
   { key: "f", does: "Freeze or run the charts", action: { kind: "pause" } },
   { key: "+", does: "Shorter chart window", action: { kind: "shorter" } },

@@ -1,7 +1,7 @@
 import "uplot/dist/uPlot.min.css";
 import "./app.css";
 import { mount } from "svelte";
-import App from "./App.svelte";
+import Gate from "./Gate.svelte";
 import { preferences } from "./preferences.svelte";
 import { theme } from "./theme.svelte";
 
@@ -11,4 +11,4 @@ preferences.start();
 const target = document.getElementById("app");
 if (!target) throw new Error("index.html has no #app");
 
-mount(App, { target });
+mount(Gate, { target });

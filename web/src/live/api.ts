@@ -1,5 +1,6 @@
 // Requests to /api/v1. Refusals are RFC 9457 problem documents; every failure becomes a `Problem` with a sentence.
 
+import { badge, withBadge } from "./access/badge";
 import type { RunEntry } from "./entry.svelte";
 import type {
   ResumePreview,
@@ -25,6 +26,7 @@ export class Problem extends Error {
 }
 
 const NO_ANSWER = "The server does not answer.";
+const NOT_SIGNED_IN = "not_signed_in";
 const WAIT_MS = 15_000;
 const START_WAIT_MS = 40_000;
 
@@ -32,15 +34,19 @@ export async function request<T>(path: string, options: RequestInit = {}): Promi
   let response: Response;
   try {
     response = await fetch(`/api/v1/${path}`, {
-      headers: { Accept: "application/json" },
       signal: AbortSignal.timeout(WAIT_MS),
       ...options,
+      headers: withBadge(options.method, options.headers),
     });
   } catch (error) {
     if (error instanceof DOMException && error.name === "AbortError") throw error;
     throw new Problem(NO_ANSWER, "no_answer", null);
   }
-  if (!response.ok) throw await problem(response);
+  if (!response.ok) {
+    const refusal = await problem(response);
+    if (refusal.code === NOT_SIGNED_IN) badge.refused();
+    throw refusal;
+  }
   return (response.status === 204 ? undefined : await response.json()) as T;
 }
 
@@ -68,13 +74,20 @@ export const post = (body: unknown): RequestInit => ({
 export const listTests = (): Promise<TestSummary[]> => request("tests");
 
 /** Starts a run. The server may have to predict first: it is waited for longer than for other answers. */
-export const startRun = (test_id: string, more: RunEntry & { revision?: number }): Promise<Run> =>
+export const startRun = (
+  test_id: string,
+  more: RunEntry & { revision?: number; lease?: number },
+): Promise<Run> =>
   request("runs", { ...post({ test_id, ...more }), signal: AbortSignal.timeout(START_WAIT_MS) });
 
 export const resumePreview = (): Promise<ResumePreview> => request("rig/resume");
 
-export const sendCommand = (command: RigCommand, options: RequestInit = {}): Promise<unknown> =>
-  request("rig/commands", { ...post({ command }), ...options });
+/** Gives a command under the epoch of the control that this window holds. */
+export const sendCommand = (
+  command: RigCommand,
+  lease: number | undefined,
+  options: RequestInit = {},
+): Promise<unknown> => request("rig/commands", { ...post({ command, lease }), ...options });
 
 export const getRun = (id: number): Promise<RunDetail> => request(`runs/${id}`);
 

@@ -1,24 +1,28 @@
 // Giving commands. A refusal becomes a message; a Stop that was not delivered is said loudly.
 
 import { Problem, sendCommand, startRun } from "./api";
+import { authority } from "./authority/authority.svelte";
 import { entry } from "./entry.svelte";
 import { COMMANDS, refusal, type Intent } from "./operate";
 import { messages, textOf } from "./messages.svelte";
 import { predictor } from "./prediction.svelte";
 import { rig } from "./rig.svelte";
+import { deliver, stopWays } from "./stopping";
 import { tests } from "./tests.svelte";
 import type { Command } from "./types";
 
 const TOPIC = "command";
-const STOP_TRIES = 3;
-const STOP_WAIT_MS = 1500;
 const STOP_SHOWN_MS = 4000;
 
 class Commands {
   /** The command whose answer is awaited. */
   pending = $state<Command | null>(null);
   /** What Start would run now, and whether it may. */
-  readonly intent: Intent = $derived({ chosen: tests.chosen, gate: predictor.gate });
+  readonly intent: Intent = $derived({
+    chosen: tests.chosen,
+    gate: predictor.gate,
+    notInCommand: authority.notInCommand,
+  });
 
   /** Gives a command if it can be given; otherwise says why not. */
   async give(command: Exclude<Command, "stop">): Promise<void> {
@@ -31,7 +35,7 @@ class Commands {
     this.pending = command;
     try {
       if (command === "start") await this.start(overriding);
-      else await sendCommand(command);
+      else await sendCommand(command, authority.epoch);
       messages.clear(TOPIC);
     } catch (error) {
       const what = error instanceof Problem && error.status !== null ? "was refused" : "was not delivered";
@@ -43,7 +47,8 @@ class Commands {
 
   private async start(overriding: boolean): Promise<void> {
     const test = tests.chosen!;
-    await startRun(test.id, { revision: entry.revisionOf(test), ...entry.body(overriding) });
+    const lease = authority.epoch;
+    await startRun(test.id, { revision: entry.revisionOf(test), lease, ...entry.body(overriding) });
     entry.started();
   }
 }
@@ -55,11 +60,11 @@ class Stop {
   failure = $state("");
   private serial = 0;
 
-  /** Sends Stop at once, whatever else goes on; tries again where the network failed. Never asks. */
+  /** Sends Stop at once, whatever else goes on and whoever is in command. Never asks. */
   async press(): Promise<void> {
     const serial = ++this.serial;
     this.state = "sending";
-    const error = await this.deliver();
+    const error = await deliver(stopWays(rig.status?.stop_url ?? null));
     if (serial !== this.serial) return;
     this.state = error === null ? "taken" : "failed";
     this.failure = error === null ? "" : textOf(error);
@@ -73,20 +78,6 @@ class Stop {
     this.serial += 1;
     this.state = "idle";
     this.failure = "";
-  }
-
-  private async deliver(): Promise<unknown> {
-    let failure: unknown = null;
-    for (let attempt = 0; attempt < STOP_TRIES; attempt += 1) {
-      try {
-        await sendCommand("stop", { keepalive: true, signal: AbortSignal.timeout(STOP_WAIT_MS) });
-        return null;
-      } catch (error) {
-        failure = error;
-        if (error instanceof Problem && error.status !== null && error.status < 500) break; // it was understood
-      }
-    }
-    return failure;
   }
 }
 

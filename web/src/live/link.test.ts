@@ -77,6 +77,13 @@ describe("Link", () => {
     });
   });
 
+  it("sends beats of whoever is in command", () => {
+    const { link, newest } = bench();
+    link.connect();
+    link.beat(7);
+    expect(JSON.parse(newest().sent[0]!)).toEqual({ type: "beat", epoch: 7 });
+  });
+
   it("tries again with growing pauses, and starts small again after a success", () => {
     const { link, newest, delays, fire, events } = bench();
     link.connect();

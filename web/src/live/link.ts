@@ -59,6 +59,11 @@ export class Link {
     this.socket?.send(JSON.stringify({ type: "subscribe", subscription: this.subscription, channels }));
   }
 
+  /** A sign that whoever is in command is still there. */
+  beat(epoch: number): void {
+    this.socket?.send(JSON.stringify({ type: "beat", epoch }));
+  }
+
   /** Tries at once, for instance because the network came back. */
   hurry(): void {
     if (!this.socket) this.connect();

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Freshness } from "./freshness";
-import { COMMANDS, guidance, missing, nextCommand, refusal } from "./operate";
+import { COMMANDS, guidance, missing, nextCommand, refusal, type Intent } from "./operate";
 import { OPEN, type StartGate } from "./predicting";
 import type { Command, Mode, RigStatus, TestSummary } from "./types";
 import { modeWords } from "./words";
@@ -16,9 +16,10 @@ const STEP = {
   blocks: 3,
 } as TestSummary;
 
-const with_ = (chosen: TestSummary | null, gate: StartGate = OPEN): { chosen: TestSummary | null; gate: StartGate } => ({
+const with_ = (chosen: TestSummary | null, gate: StartGate = OPEN): Intent => ({
   chosen,
   gate,
+  notInCommand: null,
 });
 
 function status(mode: Mode, refusals: Partial<Record<Command, string>> = {}): RigStatus {
@@ -48,6 +49,15 @@ describe("refusal", () => {
     expect(refusal("hold", status("running"), FRESH, with_(STEP, closed))).toBeNull();
     expect(nextCommand(status("ready"), FRESH, with_(STEP, closed))).toBeNull();
     expect(guidance(status("ready"), FRESH, with_(STEP, { is: "reason", why: "Near a limit" }))).toMatch(/reason/);
+  });
+
+  it("wants command once nothing else is in the way, and for Stop never", () => {
+    const outside: Intent = { ...with_(null), notInCommand: "Take control first: C" };
+    expect(refusal("reset", status("tripped"), FRESH, outside)).toBe("Take control first: C");
+    expect(refusal("hold", status("off", { hold: "Nothing is running" }), FRESH, outside)).toBe("Nothing is running");
+    expect(refusal("stop", status("running"), FRESH, outside)).toBeNull();
+    expect(guidance(status("tripped"), FRESH, outside)).toBe("Take control first: C");
+    expect(nextCommand(status("tripped"), FRESH, outside)).toBeNull();
   });
 
   it("refuses everything but Stop while no data arrive", () => {

@@ -29,10 +29,12 @@ const NO_DATA: Record<NonNullable<Freshness["trouble"]>, string> = {
   samples: "No samples arrive",
 };
 
-/** What Start will run, and whether its prediction allows it. */
+/** What Start will run, whether its prediction allows it, and whether this person may command at all. */
 export interface Intent {
   readonly chosen: TestSummary | null;
   readonly gate: StartGate;
+  /** Why no command that needs command can be given from here; null where it can. */
+  readonly notInCommand: string | null;
 }
 
 /** Why a command cannot be given now; null where it can. Stop can always be given. */
@@ -40,13 +42,14 @@ export function refusal(
   command: Command,
   status: RigStatus | null,
   fresh: Freshness,
-  { chosen, gate }: Intent,
+  { chosen, gate, notInCommand }: Intent,
 ): string | null {
   if (command === "stop") return null;
   if (fresh.trouble !== null) return NO_DATA[fresh.trouble];
   const reason = status?.commands[command];
   if (reason === undefined) return "Not offered by this server";
   if (reason !== null) return reason;
+  if (notInCommand !== null) return notInCommand;
   if (command !== "start") return null;
   if (chosen === null) return "Choose a test first";
   return gate.is === "closed" ? gate.why : null;

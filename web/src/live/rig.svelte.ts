@@ -1,5 +1,7 @@
 // What the pages know of the rig. Only what changes ten times a second or slower is reactive; samples are not.
 
+import { session } from "./access/session.svelte";
+import { authority } from "./authority/authority.svelte";
 import { logged, type EventLog } from "./eventlog";
 import { judge, sentence, type Freshness, type Signs } from "./freshness";
 import { Link } from "./link";
@@ -45,7 +47,7 @@ class Rig {
     const { protocol, host } = window.location;
     const link = new Link(`${protocol === "https:" ? "wss" : "ws"}://${host}/api/v1/live`, {
       opened: () => this.note({ socketOpen: true }),
-      closed: () => this.note({ socketOpen: false }),
+      closed: () => this.lose(),
       message: (message) => this.receive(message),
       samples: (frame) => {
         take(frame);
@@ -63,6 +65,12 @@ class Rig {
       window.removeEventListener("online", hurry);
       link.end();
     };
+  }
+
+  /** A link that was closed by the server looks like one that broke: whether somebody is signed in is asked. */
+  private lose(): void {
+    this.note({ socketOpen: false });
+    if (session.isIn) void session.ask();
   }
 
   private receive(message: ServerMessage): void {
@@ -83,6 +91,8 @@ class Rig {
   private takeStatus(status: RigStatus): void {
     this.status = status;
     this.missedLately = this.misses.lately(status.loop.deadlines_missed, now_s());
+    const epoch = authority.follow(status.lease ?? null, now_s());
+    if (epoch !== null) this.link?.beat(epoch);
     this.spans = Object.fromEntries(SPANS.map((channel) => [channel, recentSpan(channel, SPAN_S)]));
     this.note({
       statusAt_s: now_s(),
