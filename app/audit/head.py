@@ -33,12 +33,11 @@ class Head:
 
     def follow(self, database: Database) -> None:
         """Look whether the file agrees, and keep it from now on. Raises `OSError`."""
+        kept = read_head(self._path)  # before the rows: it may only lag
         with database.reading() as session:
             newest = repository.newest(session)
-            kept = read_head(self._path)
             if kept is not None:
-                there = repository.link(session, kept.id)
-                self._contradicted = there != kept
+                self._contradicted = repository.link(session, kept.id) != kept
                 self._end = kept
         if kept is None and newest == START and not self._path.exists():
             self._write(START)

@@ -98,10 +98,11 @@ class Notes:
         while True:
             self._spooled.wait()
             self._spooled.clear()
+            last = self._ended.is_set() and not self._threads[0].is_alive()  # nothing comes any more
             while not self._emptied():
                 if self._ended.wait(AGAIN_S):
                     return
-            if self._ended.is_set() and not self._threads[0].is_alive():
+            if last:
                 return
 
     def _emptied(self) -> bool:
