@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from rtcore.channels import TELEMETRY
 from rtcore.codes import Opcode, Reply
-from rtcore.compiled import carray, entry, pointer
+from rtcore.compiled import address_of, carray, entry, offset_of, pointer
+from rtcore.core import CORE
 from rtcore.io.simulated import SimulatedIo, cycle
 from rtcore.memory.commands import acknowledgement, post
 from rtcore.memory.layout import BLOCK
@@ -18,6 +19,8 @@ from rtcore.memory.playing import read_playing
 from rtcore.memory.rings import event_reader
 from rtcore.memory.segment import private_block
 from rtcore.modes import Mode
+from rtcore.program.play import START, set_down
+from rtcore.program.segments import TABLE
 from rtcore.program.stream import Program, ProgramWriter, resident
 from rtcore.rig.failing import lateness_ns
 from rtcore.rig.parameters import RigParameters, load_rig
@@ -137,6 +140,16 @@ class Virtual:
         if reply == Reply.ACCEPTED:
             self._writer = writer
         return reply
+
+    def set_down(self, force: Any, motion: Any) -> None:
+        """Put a run that has just begun within the first segments of its program: a START record each."""
+        program = self.block.fields["programs"][int(self.block.fields["active_program"])]
+        core_address = self.io.addresses[1]
+        for name, at in (("force", force), ("motion", motion)):
+            begun = np.array([at], START)
+            table = int(program[name]["segments"].ctypes.data) - offset_of(TABLE, "segments")
+            generator = core_address + offset_of(CORE, name)
+            set_down(generator, table, address_of(begun), self.period_s)
 
     def _feed(self, ticks: int) -> int:
         """Give the loop more of a streamed program; returns for how many ticks that is enough."""

@@ -2,19 +2,17 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import chain
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
 from app.definitions.definition import Definition
-from app.definitions.expansion import course_of
 from app.definitions.extent import Survey
 from app.definitions.limits import RIG
+from app.definitions.midway import begun_at
 from app.definitions.nodes import force_nodes, motion_nodes
-from app.definitions.pieces import Node, Piece
-from app.definitions.seeking import Place, seek
+from app.definitions.pieces import Node
 from rtcore.program.play import Player
 
 LONGEST_S = 7200.0  # of a window; it is played tick by tick, an hour in about a second
@@ -101,21 +99,8 @@ def _ticks(seconds: float) -> int:
 
 def _player(nodes: Sequence[Node], first: int) -> Player:
     """A player set down at a tick of nodes."""
-    place = seek(nodes, first)
-    if not place.rest:
-        return Player(course_of([]), RIG.period_s, _begun(place, 0))
-    piece, *others = place.rest
-    if not isinstance(piece, Piece) or piece.track is None:
-        return Player(course_of([place.rest]), RIG.period_s, _begun(place, 0))
-    gone = min(math.floor(place.tick * RIG.period_s * piece.rate_per_s), piece.times - 2)
-    cut = replace(piece, track=replace(piece.track, begin=gone))
-    return Player(course_of([[cut, *others]]), RIG.period_s, _begun(place, gone))
-
-
-def _begun(place: Place, knots_before: int) -> Any:
-    state = place.state
-    values = (state.value, state.mean, state.amplitude, state.frequency_hz, state.phase_cycles)
-    return (*values, place.tick, knots_before)
+    begun = begun_at(nodes, first)
+    return Player(begun.course, RIG.period_s, begun.start)
 
 
 def _peaks(force: Any, motion: Any, first: int) -> Peaks:

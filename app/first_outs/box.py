@@ -1,6 +1,5 @@
 """The black box: every tick of all channels around a first-out, copied out of the ring."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
@@ -11,16 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from app.controller.settings import ControllerSettings
-from app.first_outs.account import Account, EventKept, PeakKept, Settings, TripKept
+from app.first_outs.account import Account, Settings
 from app.first_outs.noticing import Noticed, resets_in
+from app.first_outs.peaks import peaks_of
+from app.first_outs.telling import Teller
 from app.interlocks.record import to_record
 from app.interlocks.table import Interlocks
-from app.link.events import describe
 from app.link.life import Life
-from app.link.words import trip_code
-from rtcore.channels import CHANNEL
-from rtcore.codes import EventKind
-from rtcore.interlocks import Action, Quantity
 from rtcore.modes import Mode
 from rtcore.replay import Replay
 from rtcore.rig.faults import Fault
@@ -30,10 +26,6 @@ Records = npt.NDArray[Any]
 
 AROUND_S = 2.0  # before and after
 REMEMBERED_S = 20.0  # before the box, that the loop's check may remember something of
-PEAKS = (
-    *("force_n", "force_error_n", "displacement_m"),
-    *("velocity_m_s", "valve_command", "supply_pressure_pa"),
-)
 _TOGETHER = 1 << 14
 
 
@@ -81,7 +73,7 @@ def fill_box(life: Life, noticed: Noticed, events: Records, in_force: InForce) -
     records = _between(life, first, last)
     near = events[(events["tick"] >= first) & (events["tick"] <= last)]
     names = [d.name for d in in_force.interlocks.detectors] if known else None
-    teller = _Teller(life, detectors, names, noticed.tick)
+    teller = Teller(life.period_ns, detectors, names, noticed.tick)
     before = records[records["tick"] == noticed.tick - 1]
     at = records[records["tick"] == noticed.tick]
     run_id = int(at["run"][0]) if len(at) else 0
@@ -95,10 +87,10 @@ def fill_box(life: Life, noticed: Noticed, events: Records, in_force: InForce) -
         mode_before=Mode(int(before["mode"][0])).name.lower() if len(before) else None,
         run_id=run_id or None,
         run_tick=None if noticed.run_began is None else noticed.tick - noticed.run_began,
-        first=next(t for t in trips if t.order == teller.order_of(near, noticed)),
+        first=next(t for t in trips if t.order == teller.order_of(near, noticed.event)),
         trips=trips,
         events=teller.events(near),
-        peaks=_peaks(records, noticed.tick, life.period_ns),
+        peaks=peaks_of(records, noticed.tick, life.period_ns * 1e-9),
         settings=Settings(
             controller=in_force.controller.model_dump(mode="json"),
             interlocks=in_force.interlocks.model_dump(mode="json") if known else None,
@@ -137,107 +129,3 @@ def _when(life: Life, tick: int) -> datetime:
     newest_ns = int(life.block.fields["loop_heartbeat_ns"])
     since_ns = (life.next_tick() - 1 - tick) * life.period_ns
     return datetime.now(UTC) - timedelta(microseconds=(monotonic_ns() - newest_ns + since_ns) / 1e3)
-
-
-class _Teller:
-    """Says events in words and in times from the first-out; `names` are those of the detectors, where known."""
-
-    def __init__(
-        self, life: Life, detectors: Records, names: Sequence[str] | None, tick: int
-    ) -> None:
-        self._period_ns = life.period_ns
-        self._detectors = detectors
-        self._names = names
-        self._tick = tick
-
-    def time_s(self, tick: int) -> float:
-        return round((tick - self._tick) * self._period_ns * 1e-9, 9)
-
-    def trips(self, events: Records) -> list[TripKept]:
-        """What tripped, in order."""
-        tripped = events[events["kind"] == EventKind.TRIP]
-        return [self._trip(i, event) for i, event in enumerate(tripped)]
-
-    def order_of(self, events: Records, noticed: Noticed) -> int:
-        """The place of the first-out among the trips."""
-        tripped = events[events["kind"] == EventKind.TRIP]
-        return int(np.flatnonzero(tripped["sequence"] == noticed.event["sequence"])[0])
-
-    def events(self, events: Records) -> list[EventKept]:
-        """All that was reported."""
-        return [self._event(event) for event in events]
-
-    def _trip(self, order: int, event: Any) -> TripKept:
-        told = describe(event, self._detectors, self._period_ns)
-        place = int(event["code"])
-        quantity, action = "unknown", Action.STOP
-        if place < len(self._detectors):
-            detector = self._detectors[place]
-            quantity = Quantity(int(detector["quantity"])).name.lower()
-            action = Action(int(detector["action"]))
-        return TripKept(
-            order=order,
-            tick=told.tick,
-            time_s=self.time_s(told.tick),
-            detector=self._name(place),
-            quantity=quantity,
-            action=action.name.lower(),
-            text=told.text,
-            value=finite(told.value),
-            limit=finite(told.limit),
-        )
-
-    def _name(self, place: int) -> str:
-        if self._names is not None and place < len(self._names):
-            return self._names[place]
-        known = place < len(self._detectors)
-        return trip_code(self._detectors[place]) if known else f"detector_{place}"
-
-    def _event(self, event: Any) -> EventKept:
-        told = describe(event, self._detectors, self._period_ns)
-        return EventKept(
-            tick=told.tick,
-            time_s=self.time_s(told.tick),
-            kind=told.kind,
-            code=self._name(int(event["code"])) if told.kind == "trip" else told.code,
-            text=told.text,
-            value=finite(told.value),
-            limit=finite(told.limit),
-        )
-
-
-def finite(value: float) -> float | None:
-    """JSON has neither NaN nor infinity."""
-    return value if math.isfinite(value) else None
-
-
-def _peaks(records: Records, tick: int, period_ns: int) -> list[PeakKept]:
-    return peaks_of(records, tick, period_ns * 1e-9)
-
-
-def peaks_of(records: Records, tick: int, period_s: float) -> list[PeakKept]:
-    """The greatest magnitudes before a tick and from it on."""
-    before, after = records[records["tick"] < tick], records[records["tick"] >= tick]
-    found = []
-    for name in PEAKS:
-        value, _ = _peak(before, name)
-        later, at = _peak(after, name)
-        found.append(
-            PeakKept(
-                channel=name,
-                unit=CHANNEL[name].unit,
-                before=value,
-                after=later,
-                after_s=None if at is None else round((at - tick) * period_s, 9),
-            )
-        )
-    return found
-
-
-def _peak(records: Records, name: str) -> tuple[float | None, int | None]:
-    """The value of the greatest magnitude, with its sign, and its tick."""
-    sound = records[np.isfinite(records[name])]
-    if not len(sound):
-        return None, None
-    at = int(np.argmax(np.abs(sound[name])))
-    return float(sound[name][at]), int(sound["tick"][at])

@@ -32,7 +32,7 @@ class Following:
         self._noticer = Noticer(life.period_ns * 1e-9)
         self._events = life.events()
         self._held_back = np.empty(0, self._events.ring.dtype)
-        self._noticed: deque[Noticed] = deque()
+        self._noticed: deque[tuple[Noticed, InForce]] = deque()
 
     def look(self, in_force: InForce) -> list[Box]:
         """Read on; the boxes that are full now. Where the loop has died, those that never will be, too."""
@@ -40,13 +40,14 @@ class Following:
         events = np.concatenate([self._held_back, self._events.read().records])
         ready = np.ones(len(events), np.bool_) if ended else events["tick"] < newest
         self._held_back = events[~ready]
-        self._noticed.extend(self._noticer.take(events[ready], self.life.detectors()))
+        found = self._noticer.take(events[ready], self.life.detectors())
+        self._noticed.extend((noticed, in_force) for noticed in found)
         boxes = []
-        while self._noticed and (ended or last_tick(self._noticed[0], self.life) < newest):
-            noticed = self._noticed.popleft()
+        while self._noticed and (ended or last_tick(self._noticed[0][0], self.life) < newest):
+            noticed, then = self._noticed.popleft()
             if not self._is_kept(noticed.tick):
                 reported = self.life.events().read().records
-                boxes.append(fill_box(self.life, noticed, reported, in_force))
+                boxes.append(fill_box(self.life, noticed, reported, then))
         return boxes
 
     def _is_kept(self, tick: int) -> bool:

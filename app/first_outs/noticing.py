@@ -19,7 +19,7 @@ OPERATED = (
     *(Opcode.HOLD, Opcode.RESUME, Opcode.STOP, Opcode.SHUTDOWN),
     *(Opcode.RESET, Opcode.PRESSURISE, Opcode.DEPRESSURISE),
 )
-LEAD_S = 5.0  # before a first-out outside a run that is re-run
+LEAD_S = 20.0  # before a first-out outside a run that are re-run
 MOST_STEPS = 1000
 
 

@@ -44,7 +44,7 @@ _HOLD_TICKS, _STOP_TICKS = 1000, 2000  # of no account: nothing holds or stops h
 
 
 @entry
-def _begin(g_address: int, table_address: int, start_address: int, period_s: float) -> None:
+def set_down(g_address: int, table_address: int, start_address: int, period_s: float) -> None:
     """Set the generator down within the first segment, in full swing where there is one."""
     g = carray(pointer(g_address), 1, GENERATOR)[0]
     table = carray(pointer(table_address), 1, TABLE)[0]
@@ -119,7 +119,7 @@ class Player:
         self._begun = np.zeros(1, START)
         if at is not None:
             self._begun[0] = at
-        _begin(
+        set_down(
             address_of(self._generator),
             address_of(self._table),
             address_of(self._begun),
