@@ -82,6 +82,17 @@ def serve(
 
 
 @cli.command()
+def stop(data: Data = None) -> None:
+    """Take the load off: without the console, whoever is in command, whatever state it is in.
+
+    Ends with 0 where the loop is stopping or has nothing to stop, else with 1.
+    """
+    from app.commands.stop import run
+
+    raise typer.Exit(run(data))
+
+
+@cli.command()
 def doctor(json: Json = False) -> None:
     """Say whether this machine is fit for real time."""
     from rtcore.doctor import main as run

@@ -7,10 +7,14 @@ from fastapi import Depends
 from fastapi.requests import HTTPConnection
 
 from app.audit.service import Audit
+from app.authority.service import Authority
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
+from app.first_outs.again import Again
 from app.first_outs.service import FirstOuts
 from app.histories.store import Store
+from app.interlocks.live import LiveTable
+from app.interlocks.service import InterlockTables
 from app.prediction.service import Predictions
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
@@ -34,6 +38,10 @@ ThisConsole = Annotated[Console, Depends(console)]
 
 def _audit(this: ThisConsole) -> Audit:
     return this.audit
+
+
+def _authority(this: ThisConsole) -> Authority:
+    return this.authority
 
 
 def _histories(this: ThisConsole) -> Store:
@@ -64,6 +72,10 @@ def _first_outs(this: ThisConsole) -> FirstOuts:
     return this.first_outs
 
 
+def _first_outs_again(this: ThisConsole) -> Again:
+    return this.first_outs_again
+
+
 def _runs(this: ThisConsole) -> Runs:
     return this.runs
 
@@ -92,11 +104,20 @@ def _run_predictions(this: ThisConsole) -> RunPredictions:
     return this.run_predictions
 
 
+def _interlocks(this: ThisConsole) -> InterlockTables:
+    return this.interlocks
+
+
+def _live_interlocks(this: ThisConsole) -> LiveTable:
+    return this.live_interlocks
+
+
 def _starter(this: ThisConsole) -> Starter:
     return this.starter
 
 
 AuditService = Annotated[Audit, Depends(_audit)]
+AuthorityService = Annotated[Authority, Depends(_authority)]
 HistoryStore = Annotated[Store, Depends(_histories)]
 Status = Annotated[StatusReader, Depends(_status)]
 RigService = Annotated[Rig, Depends(_rig)]
@@ -104,6 +125,7 @@ CommandThreads = Annotated[Executor, Depends(_command_threads)]
 CatalogueService = Annotated[Catalogue, Depends(_catalogue)]
 LibraryService = Annotated[Library, Depends(_library)]
 FirstOutsService = Annotated[FirstOuts, Depends(_first_outs)]
+FirstOutsAgain = Annotated[Again, Depends(_first_outs_again)]
 RunsService = Annotated[Runs, Depends(_runs)]
 ResultsService = Annotated[Results, Depends(_results)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
@@ -111,4 +133,6 @@ StorageService = Annotated[Storage, Depends(_storage)]
 SystemService = Annotated[System, Depends(_system)]
 PredictionsService = Annotated[Predictions, Depends(_predictions)]
 RunPredictionsService = Annotated[RunPredictions, Depends(_run_predictions)]
+InterlocksService = Annotated[InterlockTables, Depends(_interlocks)]
+LiveInterlocksTable = Annotated[LiveTable, Depends(_live_interlocks)]
 StarterService = Annotated[Starter, Depends(_starter)]

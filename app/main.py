@@ -20,15 +20,18 @@ from app.access.router import router as auth_router
 from app.access.sign_in_page import router as sign_in_router
 from app.access.users_router import router as users_router
 from app.audit.router import router as audit_router
+from app.authority.router import router as lease_router
 from app.body_limit import BodyLimit
 from app.catalogue.router import router as tests_router
 from app.catalogue.texts_router import router as texts_router
 from app.described import Described
 from app.docs_page import docs_page
 from app.errors import Refusal
+from app.first_outs.again_router import router as first_outs_again_router
 from app.first_outs.router import router as first_outs_router
 from app.health import router as health_router
 from app.histories.router import router as histories_router
+from app.interlocks.router import router as interlocks_router
 from app.live.router import router as live_router
 from app.no_nul import NoNul
 from app.prediction.router import router as predictions_router
@@ -52,6 +55,8 @@ from app.serving import (
 )
 from app.settings import VERSION, Settings
 from app.static_files import serve_console
+from app.stopping.door import StopDoor, open_door
+from app.stopping.listening import listening_for_stop
 from app.storage.router import router as storage_router
 from app.system.router import router as system_router
 from app.wiring import Console
@@ -64,22 +69,32 @@ _BODY_LIMITS = {
 }
 
 
-def create_app(settings: Settings, presets: Presets | None = None, url: str = "/") -> FastAPI:
+def create_app(
+    settings: Settings,
+    presets: Presets | None = None,
+    url: str = "/",
+    stop_door: StopDoor | None = None,
+) -> FastAPI:
     """The application. Its life is that of the console: it starts the loop and ends it.
 
-    Without presets it can be described, not run. `url` is where browsers find it.
+    Without presets it can be described, not run. `url` is where browsers find it, and `stop_door` where
+    Stop has a path of its own.
     """
+    hosts = known_hosts(settings.allowed_hosts)
 
     @asynccontextmanager
     async def life(app: FastAPI) -> AsyncIterator[None]:
         assert presets is not None
-        console = app.state.console = Console(settings, presets)
+        console = app.state.console = Console(
+            settings, presets, None if stop_door is None else stop_door.url
+        )
         await run_sync(console.open)
-        await run_sync(_invite, console, url)
-        console.broadcaster.start()
-        yield
-        await console.broadcaster.stop()
-        await run_sync(console.close)
+        with listening_for_stop(stop_door, hosts, console.access.book, console.stops):
+            await run_sync(_invite, console, url)
+            console.broadcaster.start()
+            yield
+            await console.broadcaster.stop()
+            await run_sync(console.close)
 
     app = Described(
         title="forcerig",
@@ -93,11 +108,13 @@ def create_app(settings: Settings, presets: Presets | None = None, url: str = "/
     app.add_middleware(BodyLimit, limits=_BODY_LIMITS)
     app.add_middleware(Door)
     app.add_middleware(Paced, never=_STOPS)
-    app.add_middleware(Guard, hosts=known_hosts(settings.allowed_hosts))
+    stop_port = None if stop_door is None else stop_door.port
+    app.add_middleware(Guard, hosts=hosts, stop_port=stop_port)
     install_handlers(app)
     for router in (
         health_router,
         rig_router,
+        lease_router,
         texts_router,
         predictions_router,
         tests_router,
@@ -108,8 +125,10 @@ def create_app(settings: Settings, presets: Presets | None = None, url: str = "/
         predicted_router,
         storage_router,
         first_outs_router,
+        first_outs_again_router,
         audit_router,
         system_router,
+        interlocks_router,
         live_router,
         auth_router,
         users_router,
@@ -159,6 +178,7 @@ def serve(
             hold_data_folder(settings.data_dir),
             hold_database(settings.database_address),
             bind(settings.host, settings.port) as listener,
+            open_door(settings, listener) as stop_door,
         ):
             check(settings)
             go_before_other_work()
@@ -167,15 +187,16 @@ def serve(
                 raise CannotServe(presets.detail)
             url = url_of(listener, tls=settings.tls_cert is not None)
             print(f"forcerig console: {url}", flush=True)
-            uvicorn.Server(_uvicorn_config(settings, presets, url)).run(sockets=[listener])
+            app = create_app(settings, presets, url, stop_door)
+            uvicorn.Server(_uvicorn_config(app, settings)).run(sockets=[listener])
     except CannotServe as error:
         print(f"forcerig: {error}", file=sys.stderr, flush=True)
         raise SystemExit(2) from None
 
 
-def _uvicorn_config(settings: Settings, presets: Presets, url: str) -> uvicorn.Config:
+def _uvicorn_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
     return uvicorn.Config(
-        create_app(settings, presets, url),
+        app,
         ssl_certfile=settings.tls_cert,
         ssl_keyfile=settings.tls_key,
         http="h11",  # it bounds the head of a request; httptools would read one without end

@@ -5,7 +5,11 @@ from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 
 from app.access.service import Access
+from app.audit.record import note
 from app.audit.service import Audit
+from app.authority.changes import Change
+from app.authority.keeper import LeaseKeeper
+from app.authority.service import Authority
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
 from app.catalogue.shipped import enter_shipped
@@ -13,12 +17,20 @@ from app.catalogue.written import Reader
 from app.controller.record import to_record as gains_record
 from app.db import Database
 from app.definitions.limits import RIG
+from app.first_outs.again import Again
 from app.first_outs.book import Book
 from app.first_outs.box import InForce
 from app.first_outs.keeper import Keeper
+from app.first_outs.reruns import Reruns
+from app.first_outs.run_tests import TestsOfRuns
 from app.first_outs.service import FirstOuts
 from app.histories.store import Store
+from app.interlocks.live import LiveTable
+from app.interlocks.loop_table import LoopTable
 from app.interlocks.record import to_record as interlocks_record
+from app.interlocks.service import InterlockTables, Preset
+from app.interlocks.table import Interlocks
+from app.link.leasing import LoopLease
 from app.link.life import Life
 from app.link.link import Link
 from app.link.paths import block_path
@@ -41,6 +53,7 @@ from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.runs.starting import Needs, Starter
 from app.settings import Settings
+from app.stopping.service import Stops
 from app.storage.service import Storage, StorageSettings
 from app.storage.watcher import Watcher
 from app.system.service import System
@@ -52,14 +65,9 @@ _log = logging.getLogger(__name__)
 class Console:
     """Everything that a request may need."""
 
-    def __init__(self, settings: Settings, presets: Presets) -> None:
+    def __init__(self, settings: Settings, presets: Presets, stop_url: str | None = None) -> None:
         self.settings = settings
         self._presets = presets
-        frozen = Frozen(
-            controller=presets.controller.model_dump(mode="json"),
-            interlocks=presets.interlocks.model_dump(mode="json"),
-            rig=presets.rig.model_dump(mode="json"),
-        )
         self.database = Database(settings.database_address)
         self.audit = Audit(self.database, settings.data_dir)
         self.access = Access(self.database)
@@ -74,12 +82,23 @@ class Console:
         self.first_outs = FirstOuts(
             self.database, settings.first_outs_dir, lambda: self._keeper.trouble
         )
+        self._reruns = Reruns(TestsOfRuns(self.database, self.histories).definition)
+        self.first_outs_again = Again(self.first_outs, self._reruns)
         self._plans = plans = Plans()
         kept = StorageSettings(settings.runs_dir, RIG.period_s, settings.reserve_bytes)
         self.storage = Storage(kept, self.database, self.recorder.state)
         supply_pa = presets.rig.supply.high_pa
-        self.status = StatusReader(self.link, self.recorder, plans, supply_pa, self.storage.state)
-        self.rig = Rig(self.link, lambda: self.status.read().commands)
+        self.authority = Authority(
+            LoopLease(self.link), self.access.book.still, self._command_changed
+        )
+        self._lease_keeper = LeaseKeeper(self.authority)
+        self.status = StatusReader(
+            *(self.link, self.recorder, plans, supply_pa, self.storage.state),
+            lease=self.authority.shown,
+            stop_url=stop_url,
+        )
+        self.rig = Rig(self.link, lambda: self.status.read().commands, self.authority.check)
+        self.stops = Stops(lambda: self.link.life)
         reader = Reader(self.histories)
         self.catalogue = Catalogue(self.database, reader)
         self.library = Library(self.database, reader)
@@ -98,12 +117,22 @@ class Console:
             self.catalogue,
             self.predictions,
             self.storage,
+            self.authority.check,
             self.rig.why_not_start,
             self._clerk.never_began,
         )
         self.starter = Starter(
-            self.database, settings.runs_dir, self.link, self.recorder, frozen, plans, needs
+            self.database, settings.runs_dir, self.link, self.recorder, self._frozen, plans, needs
         )
+        file = presets.interlocks_file
+        self.interlocks = InterlockTables(
+            self.database,
+            LoopTable(self.link),
+            Preset(presets.interlocks, None if file is None else str(file)),
+            self.starter.one_at_a_time,
+            self._turn_to,
+        )
+        self.live_interlocks = LiveTable(self.link, presets.interlocks)
         self.broadcaster = Broadcaster(lambda: self.link.life, self.status.read)
         self.system = System(
             self.database, settings.data_dir, lambda: self.link.life, self.broadcaster.clients
@@ -120,8 +149,10 @@ class Console:
         self.access.open()
         self.audit.open()
         enter_shipped(self.database, self.catalogue.reader)
+        self.interlocks.open()
         self._plans.recall(self.database)
         self.link.start()
+        self._lease_keeper.start()
         life = self.link.life
         self._clerk.start()
         sweep(self.settings.runs_dir, self._clerk)
@@ -135,7 +166,9 @@ class Console:
     def close(self) -> None:
         """Take the load off, depressurise, end the loop, write down what was recorded."""
         self.predictions.close()
+        self._reruns.close()
         self._watcher.close()
+        self._lease_keeper.close()
         self.link.take_load_off()
         self.link.end_loop()
         self._keeper.stop()
@@ -154,22 +187,41 @@ class Console:
 
     def _in_force(self) -> InForce:
         """What a first-out is kept with."""
-        presets = self._presets
+        presets, interlocks = self._presets, self.interlocks.in_force.interlocks
+        lease = self.authority.shown()
         return InForce(
-            presets.controller, presets.interlocks, presets.rig, self.settings.seed, lease=None
+            *(presets.controller, interlocks, presets.rig, self.settings.seed),
+            lease=None if lease is None else lease.model_dump(mode="json"),
         )
+
+    def _frozen(self) -> Frozen:
+        """What a run is made with besides its test."""
+        return Frozen(
+            controller=self._presets.controller.model_dump(mode="json"),
+            interlocks=self.interlocks.in_force.interlocks.model_dump(mode="json"),
+            rig=self._presets.rig.model_dump(mode="json"),
+        )
+
+    def _turn_to(self, interlocks: Interlocks) -> None:
+        """What looks at the table looks at this one from now on."""
+        self.predictions.turn_to(interlocks)
+        self.live_interlocks.turn_to(interlocks)
 
     def _runs_changed(self) -> None:
         self.broadcaster.runs_changed()
 
+    def _command_changed(self, change: Change) -> None:
+        """Tell everybody at the rig, and the audit."""
+        self.broadcaster.tell("lease", change.word, change.text)
+        note(change.entry())
+
     def _configure(self, link: Link) -> bool:
-        """Give a loop that has just started its gains and interlocks."""
+        """Give a loop that has just started the epoch to obey, its gains and its interlocks."""
+        self.authority.look()
+        interlocks = self.interlocks.in_force.interlocks
         banks = (
             (Opcode.ADOPT_GAINS, gains_record(self._presets.controller)),
-            (
-                Opcode.ADOPT_INTERLOCKS,
-                interlocks_record(self._presets.interlocks, RIG.period_s),
-            ),
+            (Opcode.ADOPT_INTERLOCKS, interlocks_record(interlocks, RIG.period_s)),
         )
         for opcode, record in banks:
             refusal = link.adopt(opcode, record)

@@ -53,6 +53,8 @@ class Door:
         who = await _who(scope)
         if isinstance(who, Principal):
             scope.setdefault("state", {})["principal"] = who
+            if scope["type"] == "http":
+                scope["app"].state.console.authority.seen(who)  # whoever asks is there
             with acting(Actor(who.name, who.role.word, who.id)):
                 await self._app(scope, receive, send)
         elif scope["type"] == "http":

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
+from app.audit.record import Entry
 from app.authority.lease import Held, Lease, Request
 from app.authority.refusals import lasting, spoken
 
@@ -40,12 +41,24 @@ class Change:
             asked=_asked(self._requests(self.before, self.after)),
         )
 
+    def entry(self) -> Entry:
+        """For the audit."""
+        held = self.after.held
+        reason = held.reason if held is not None and self.word in _GRANTS else None
+        return Entry(
+            *(f"lease.{self.word}", "rig"),
+            why=reason or None,
+            before=_shown(self.before),
+            after=_shown(self.after),
+        )
+
     @staticmethod
     def _requests(there: Lease, not_there: Lease) -> Request | None:
         """The request that one has and the other has not."""
         return next((r for r in reversed(there.requests) if r not in not_there.requests), None)
 
 
+_GRANTS = (Word.TAKEN, Word.TAKEN_OVER, Word.HANDED_OVER)
 _SENTENCES = {
     Word.TAKEN: "{who} is in command{reason}",
     Word.TAKEN_OVER: "{who} has taken over from {before}{reason}",
@@ -74,3 +87,11 @@ def _asks(made: Request | None) -> str:
 
 def _asked(gone: Request | None) -> str:
     return "Nobody" if gone is None else spoken(gone.who)
+
+
+def _shown(lease: Lease) -> dict[str, object]:
+    return {
+        "epoch": lease.epoch,
+        "holder": None if lease.held is None else spoken(lease.held.who),
+        "requests": [spoken(made.who) for made in lease.requests],
+    }

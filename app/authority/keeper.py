@@ -9,7 +9,7 @@ _log = logging.getLogger(__name__)
 LOOK_S = 0.1
 
 
-class Keeper:
+class LeaseKeeper:
     """Looks ten times a second, from `start` to `close`."""
 
     def __init__(self, authority: Authority) -> None:

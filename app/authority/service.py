@@ -16,6 +16,7 @@ from app.authority.schemas import LeaseOut, LeaseRequestOut
 from app.errors import Code, Refusal
 
 _log = logging.getLogger(__name__)
+InCommand = Callable[[Principal, int | None], int | Refusal]  # `Authority.check`
 _Transition = Callable[[Lease, float], Lease | Refusal]
 
 

@@ -2,12 +2,13 @@
 
 import asyncio
 import logging
+from collections import deque
 from collections.abc import Callable
 
 from app.link.events import EventReader
 from app.link.life import Life, RingReader
 from app.live.client import Client
-from app.live.messages import EventFrame, RunsChanged, StatusFrame
+from app.live.messages import EventFrame, EventOut, RunsChanged, StatusFrame
 from app.rigs.schemas import RigStatus
 
 _log = logging.getLogger(__name__)
@@ -27,6 +28,7 @@ class Broadcaster:
         self._events: EventReader | None = None
         self._clients: set[Client] = set()
         self._runs_changed = False
+        self._told: deque[tuple[str, str, str]] = deque()
         self._task: asyncio.Task[None] | None = None
 
     def start(self) -> None:
@@ -56,6 +58,10 @@ class Broadcaster:
         """Tell everybody that the list of runs has changed. From any thread."""
         self._runs_changed = True
 
+    def tell(self, kind: str, code: str, text: str) -> None:
+        """Tell everybody of something that the app did, like an event of the loop. From any thread."""
+        self._told.append((kind, code, text))
+
     async def _broadcast(self) -> None:
         clock = asyncio.get_running_loop().time
         status_due = clock()
@@ -77,12 +83,23 @@ class Broadcaster:
             self._put_message(RunsChanged().model_dump_json())
         if self._events is not None:
             for event in self._events.read():
-                self._put_message(EventFrame.of(event).model_dump_json())
+                if event.kind != "lease":  # which is told with names
+                    self._put_message(EventFrame.of(event).model_dump_json())
+        self._put_told()
         if self._samples is not None:
             batch = self._samples.read(MOST_TICKS)
             if len(batch.records):
                 for client in self._clients:
                     client.put_samples(batch.records, batch.lost)
+
+    def _put_told(self) -> None:
+        life = self._following
+        while self._told:
+            kind, code, text = self._told.popleft()
+            tick = 0 if life is None else max(0, life.next_tick() - 1)
+            time_s = 0.0 if life is None else tick * life.period_ns * 1e-9
+            event = EventOut(tick=tick, time_s=time_s, kind=kind, code=code, text=text)
+            self._put_message(EventFrame(event=event).model_dump_json())
 
     def _follow(self, life: Life | None) -> None:
         """Begin with what is published from now on, when there is a new loop."""

@@ -2,8 +2,9 @@
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError, field_validator
 
+from app.authority.schemas import Epoch
 from app.errors import Code, Refusal
 from app.link.events import LoopEvent
 from app.rigs.schemas import ChannelOut, RigStatus
@@ -30,6 +31,15 @@ class Subscribe(BaseModel):
         if len(set(names)) != len(names):
             raise ValueError("a channel is named twice")
         return names
+
+
+class Beat(BaseModel):
+    """From the browser of whoever is in command: it is still there."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    type: Literal["beat"]
+    epoch: Epoch
 
 
 class Hello(BaseModel):
@@ -91,15 +101,21 @@ class ErrorFrame(BaseModel):
     detail: str
 
 
-def parse(text: str | None) -> Subscribe | Refusal:
+FromBrowser = Subscribe | Beat
+_FROM_BROWSER: TypeAdapter[FromBrowser] = TypeAdapter(
+    Annotated[FromBrowser, Field(discriminator="type")]
+)
+
+
+def parse(text: str | None) -> FromBrowser | Refusal:
     """A frame of the browser's; None for a binary one."""
     if text is None or len(text) > LONGEST_FRAME:
         return Refusal(
             Code.INVALID_REQUEST, f"Only text frames of up to {LONGEST_FRAME} characters are read"
         )
     try:
-        return Subscribe.model_validate_json(text)
+        return _FROM_BROWSER.validate_json(text)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
-        place = ".".join(str(part) for part in first["loc"])
+        place = ".".join(str(part) for part in first["loc"][1:])  # after the type
         return Refusal(Code.INVALID_REQUEST, f"{place}: {first['msg']}" if place else first["msg"])

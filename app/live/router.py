@@ -2,17 +2,20 @@
 
 import asyncio
 import logging
+from collections.abc import Callable
+from functools import partial
 
 from fastapi import APIRouter, WebSocket
 
 from app.access.dependencies import AccessService, Viewer
 from app.access.door import NOT_IN
+from app.access.principal import Principal
 from app.access.sockets import until_sent_away
+from app.authority.service import Authority
 from app.definitions.limits import RIG
 from app.dependencies import ThisConsole
-from app.errors import Refusal
 from app.live.client import Client, TooSlow
-from app.live.messages import ErrorFrame, Hello, parse
+from app.live.messages import Beat, ErrorFrame, Hello, Subscribe, parse
 from app.settings import VERSION
 
 router = APIRouter()
@@ -28,7 +31,8 @@ async def live(who: Viewer, socket: WebSocket, stream: ThisConsole, access: Acce
     client.put_message(Hello(period_s=RIG.period_s, version=VERSION).model_dump_json())
     stream.broadcaster.add(client)
     sent_away = asyncio.create_task(until_sent_away(who, access.book))
-    jobs = (client.send(socket), _listen(socket, client))
+    hear = partial(_hear, client, who, stream.authority)
+    jobs = (client.send(socket), _listen(socket, hear))
     tasks = [sent_away, *(asyncio.create_task(job) for job in jobs)]
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -44,7 +48,19 @@ async def live(who: Viewer, socket: WebSocket, stream: ThisConsole, access: Acce
         await asyncio.gather(*tasks, return_exceptions=True)
 
 
-async def _listen(socket: WebSocket, client: Client) -> None:
+def _hear(client: Client, who: Principal, authority: Authority, text: str | None) -> None:
+    """Do what a frame of the browser's asks for, or say why not."""
+    wanted = parse(text)
+    if isinstance(wanted, Subscribe):
+        client.subscribe(wanted)
+        return
+    refusal = authority.beat(who, wanted.epoch) if isinstance(wanted, Beat) else wanted
+    if refusal is not None:
+        error = ErrorFrame(code=refusal.code, detail=refusal.detail)
+        client.put_message(error.model_dump_json())
+
+
+async def _listen(socket: WebSocket, hear: Callable[[str | None], None]) -> None:
     """Read the browser's frames until it leaves."""
     while True:
         try:
@@ -53,8 +69,4 @@ async def _listen(socket: WebSocket, client: Client) -> None:
             return
         if frame["type"] == "websocket.disconnect":
             return
-        wanted = parse(frame.get("text"))
-        if isinstance(wanted, Refusal):
-            client.put_message(ErrorFrame(code=wanted.code, detail=wanted.detail).model_dump_json())
-        else:
-            client.subscribe(wanted)
+        hear(frame.get("text"))

@@ -4,6 +4,7 @@ from enum import StrEnum
 
 from pydantic import BaseModel, ConfigDict
 
+from app.authority.schemas import Epoch, LeaseOut
 from app.storage.schemas import StorageState
 from rtcore.modes import Mode
 
@@ -40,11 +41,12 @@ class RigCommand(StrEnum):
 
 
 class CommandRequest(BaseModel):
-    """A command to the rig."""
+    """A command to the rig. Without `lease` it bears the epoch that the caller holds."""
 
     model_config = ConfigDict(extra="forbid")
 
     command: RigCommand
+    lease: Epoch | None = None
 
 
 class CommandDone(BaseModel):
@@ -158,7 +160,10 @@ class ResumePreview(BaseModel):
 
 
 class RigStatus(BaseModel):
-    """Everything that is always on the screen."""
+    """Everything that is always on the screen.
+
+    `lease` is null where nobody is in command, `stop_url` where Stop has no path of its own.
+    """
 
     mode: ModeWord
     mode_since_s: float | None
@@ -171,6 +176,8 @@ class RigStatus(BaseModel):
     storage: StorageState
     permissives: list[Permissive]
     commands: CommandReasons
+    lease: LeaseOut | None
+    stop_url: str | None
 
 
 class ChannelOut(BaseModel):

@@ -5,30 +5,45 @@ What was asked for is noted in the audit, which never makes a command wait.
 
 from collections.abc import Callable
 
+from app.access.principal import Principal, Role, lacking
 from app.audit.record import Entry, note
+from app.authority.service import InCommand
 from app.errors import Code, Refusal
 from app.link.life import Life
 from app.link.link import Link
 from app.rigs.resuming import preview
-from app.rigs.schemas import CommandDone, CommandReasons, ResumePreview, RigCommand
+from app.rigs.schemas import CommandDone, CommandReasons, CommandRequest, ResumePreview, RigCommand
 from rtcore.codes import Opcode
+
+_FOR_ANYBODY = (RigCommand.STOP, RigCommand.SHUTDOWN)  # whoever is in command
 
 
 class Rig:
-    """Gives commands; `reasons` says why one cannot be given now."""
+    """Gives commands; `reasons` says why one cannot be given now, `in_command` who may give it."""
 
-    def __init__(self, link: Link, reasons: Callable[[], CommandReasons]) -> None:
+    def __init__(
+        self, link: Link, reasons: Callable[[], CommandReasons], in_command: InCommand
+    ) -> None:
         self._link = link
         self._reasons = reasons
+        self._in_command = in_command
 
-    def command(self, command: RigCommand) -> CommandDone | Refusal:
+    def command(self, who: Principal, asked: CommandRequest) -> CommandDone | Refusal:
         """Give a command and wait for the loop's answer. It is in the audit, done or refused."""
-        answer = self._command(command)
-        note(_entry(command, answer))
+        answer = self._lacking(who, asked.command) or self._command(who, asked)
+        note(_entry(asked.command, answer))
         return answer
 
-    def _command(self, command: RigCommand) -> CommandDone | Refusal:
-        answer = self._link.ask(Opcode[command.name])
+    def _lacking(self, who: Principal, command: RigCommand) -> Refusal | None:
+        """Everybody who sees the rig may stop it."""
+        return None if command is RigCommand.STOP else lacking(who, Role.OPERATOR)
+
+    def _command(self, who: Principal, asked: CommandRequest) -> CommandDone | Refusal:
+        command = asked.command
+        lease = None if command in _FOR_ANYBODY else self._in_command(who, asked.lease)
+        if isinstance(lease, Refusal):
+            return lease
+        answer = self._link.ask(Opcode[command.name], lease=lease)
         if not isinstance(answer, Refusal):
             return CommandDone(command=command, tick=answer.tick)
         if command is RigCommand.STOP and answer.code is Code.WRONG_MODE:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from app.authority.schemas import LeaseOut
 from app.link.life import Life
 from app.link.link import Link
 from app.link.words import trip_code
@@ -45,12 +46,17 @@ class StatusReader:
         plans: Plans,
         supply_pressure_pa: float,
         storage: Callable[[], StorageState],
+        *,
+        lease: Callable[[], LeaseOut | None] = lambda: None,
+        stop_url: str | None = None,
     ) -> None:
         self._link = link
         self._recorder = recorder
         self._plans = plans
         self._supply_pressure_pa = supply_pressure_pa
         self._storage = storage
+        self._lease = lease
+        self._stop_url = stop_url
         self._history: History | None = None
         self._reading = Lock()
 
@@ -82,6 +88,8 @@ class StatusReader:
             storage=storage,
             permissives=self._permissives(mode, _first(trips), supply_pa, storage),
             commands=reasons(Situation(mode, _first(trips), supply_pa)),
+            lease=self._lease(),
+            stop_url=self._stop_url,
         )
 
     def _of(self, life: Life) -> History:
@@ -104,6 +112,8 @@ class StatusReader:
             storage=storage,
             permissives=self._permissives(None, None, math.nan, storage),
             commands=reasons(Situation(None, None, math.nan)),
+            lease=self._lease(),
+            stop_url=self._stop_url,
         )
 
     def _permissives(

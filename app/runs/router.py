@@ -30,7 +30,7 @@ def start_run(who: Operator, body: RunStart, starter: StarterService) -> RunSumm
     """Start a test. Answers once the loop has begun it. To override a prediction takes an engineer."""
     if body.override_reason is not None:
         granted(lacking(who, Role.ENGINEER))
-    return RunSummary.of(granted(starter.start(body)))
+    return RunSummary.of(granted(starter.start(body, who)))
 
 
 @router.get("", operation_id="listRuns")

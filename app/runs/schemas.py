@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field, StringConstraints
 
+from app.authority.schemas import Epoch
 from app.db import NO_NUL
 from app.recording.outcome import Outcome
 from app.runs.models import Run, RunEvent
@@ -36,7 +37,10 @@ Tags = Annotated[tuple[Tag, ...], Field(max_length=50), AfterValidator(_each_onc
 
 
 class RunStart(BaseModel):
-    """Which test to run, and what to note of the run; without a revision, the newest."""
+    """Which test to run, and what to note of the run; without a revision, the newest.
+
+    Without `lease` it bears the epoch that the caller holds.
+    """
 
     model_config = ConfigDict(extra="forbid")
 
@@ -48,6 +52,7 @@ class RunStart(BaseModel):
     operator: Operator = ""
     notes: Notes = ""
     tags: Tags = ()
+    lease: Epoch | None = None
 
 
 class RunAnnotation(BaseModel):

@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
 
+from app.access.principal import Principal
 from app.audit.record import Entry as AuditEntry
 from app.audit.record import note, record
+from app.authority.service import InCommand
 from app.catalogue.service import Catalogue, StoredTest
 from app.db import Database
 from app.definitions.expansion import expand
@@ -31,6 +33,9 @@ PREDICTED_WITHIN_S = 20.0
 _CATCHING_UP = Refusal(
     Code.BUSY, "Cannot start: the recorder is still reading what happened before; try again"
 )
+_OVERTAKEN = Refusal(
+    Code.BUSY, "Cannot start: the interlocks have changed since the test was predicted; try again"
+)
 _UNWRITABLE = Refusal(
     Code.NO_SPACE, "Cannot start: nothing can be written to the disk; see the console's log"
 )
@@ -43,6 +48,7 @@ class Needs:
     catalogue: Catalogue
     predictions: Predictions
     storage: Storage
+    in_command: InCommand
     why_not: Callable[[], Refusal | None]
     never_began: Callable[[int], None]
 
@@ -56,7 +62,7 @@ class Starter:
         runs_dir: Path,
         link: Link,
         recorder: Recorder,
-        frozen: Frozen,
+        frozen: Callable[[], Frozen],
         plans: Plans,
         needs: Needs,
     ) -> None:
@@ -68,20 +74,23 @@ class Starter:
         self._plans = plans
         self._needs = needs
         self._unanswered: set[int] = set()
-        self._one_at_a_time = Lock()
+        self.one_at_a_time = Lock()  # held as well by whoever changes what a run is made with
 
-    def start(self, asked: RunStart) -> Run | Refusal:
+    def start(self, asked: RunStart, who: Principal) -> Run | Refusal:
         """Run a revision of a test. Returns its row once the loop has begun it.
 
-        A refused start is in the audit too.
+        Who is in command when they ask must still be when it begins. A refused start is in the audit too.
         """
-        run = self._checked(asked)
+        run = self._checked(asked, who)
         if isinstance(run, Refusal):
             told = asked.model_dump(mode="json", exclude_none=True)
             note(AuditEntry("runs.start", asked.test_id, run.detail, after=told, refused=run.code))
         return run
 
-    def _checked(self, asked: RunStart) -> Run | Refusal:
+    def _checked(self, asked: RunStart, who: Principal) -> Run | Refusal:
+        lease = self._needs.in_command(who, asked.lease)
+        if isinstance(lease, Refusal):
+            return lease
         stored = self._needs.catalogue.definition_of(asked.test_id, asked.revision)
         if isinstance(stored, Refusal):
             return stored
@@ -92,10 +101,12 @@ class Starter:
         predicted = gate(found, asked.override_reason)
         if isinstance(predicted, Refusal):
             return predicted
-        with self._one_at_a_time:
-            return self._start(asked, stored, predicted)
+        with self.one_at_a_time:
+            return self._start(asked, stored, predicted, lease)
 
-    def _start(self, asked: RunStart, stored: StoredTest, predicted: Predicted) -> Run | Refusal:
+    def _start(
+        self, asked: RunStart, stored: StoredTest, predicted: Predicted, lease: int
+    ) -> Run | Refusal:
         life = self._link.life
         plan = outline(stored.definition)
         refusal = self._needs.why_not() or self._needs.storage.refusal_for(plan.duration_s)
@@ -103,15 +114,17 @@ class Starter:
             return refusal or Refusal(Code.LOOP_LOST, "Cannot start: the loop process does not run")
         if self._recorder.following is not life:
             return _CATCHING_UP
+        if not self._needs.predictions.stands(stored.definition, predicted):
+            return _OVERTAKEN
         self._settle()
-        refusal = self._link.load_program(expand(stored.definition))
+        refusal = self._link.load_program(expand(stored.definition), lease)
         if refusal is not None:
             return refusal
         entry = Entry(asked, stored, predicted.prediction, plan.model_dump(mode="json"))
-        return self._begin(life, entry, predicted)
+        return self._begin(life, entry, predicted, lease)
 
-    def _begin(self, life: Life, entry: Entry, predicted: Predicted) -> Run | Refusal:
-        run, fresh = enter(self._database, life, self._frozen, entry)
+    def _begin(self, life: Life, entry: Entry, predicted: Predicted, lease: int) -> Run | Refusal:
+        run, fresh = enter(self._database, life, self._frozen(), entry)
         self._unanswered.add(
             run.id
         )  # until it is known what became of it, whatever fails meanwhile
@@ -121,7 +134,7 @@ class Starter:
                 write_series(folder, predicted.through.series, predicted.same_ticks)
         except OSError:
             return self._withdraw(run, fresh, _UNWRITABLE)
-        answer = self._link.ask(Opcode.START, run.id)
+        answer = self._link.ask(Opcode.START, run.id, lease=lease)
         if isinstance(answer, Refusal):
             return self._withdraw(run, fresh, answer)
         self._unanswered.discard(run.id)

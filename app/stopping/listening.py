@@ -4,15 +4,34 @@ import logging
 import socket
 import ssl
 from collections import OrderedDict
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager, suppress
 from threading import Event, Lock, Thread
 
+from app.access.book import Book
+from app.stopping.answering import Answering
 from app.stopping.door import StopDoor
 from app.stopping.request import WITHIN_S, Answer, NoRequest, Request, read_request
+from app.stopping.service import Stops
 
 MOST = 32  # connections
 _log = logging.getLogger(__name__)
+
+
+@contextmanager
+def listening_for_stop(
+    door: StopDoor | None, hosts: Collection[str], book: Book, stops: Stops
+) -> Iterator[None]:
+    """Answer what comes to the door meanwhile, where there is one."""
+    if door is None:
+        yield
+        return
+    listener = StopListener(door, Answering(door, hosts, book, stops))
+    listener.start()
+    try:
+        yield
+    finally:
+        listener.close()
 
 
 class StopListener:

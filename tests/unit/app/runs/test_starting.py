@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from sqlalchemy.exc import OperationalError
 
+from app.access.principal import Principal, Role
 from app.catalogue.service import StoredTest
 from app.db import Database
 from app.definitions.definition import Definition
@@ -32,6 +33,10 @@ def _stored() -> StoredTest:
     return StoredTest("hold", 1, "hold", found)
 
 
+EPOCH = 7
+ANN = Principal("session:1", "Ann", Role.OPERATOR, "session")
+
+
 class Lab:
     """A starter over a book, with a loop that refuses to start, and a disk that can be taken away."""
 
@@ -41,29 +46,34 @@ class Lab:
         self.given_up: list[int] = []
         self.answers: list[Any] = []
         self.locked = False
+        self.stands = self.commands = True
         life = SimpleNamespace(name="1-42", period_ns=250_000, conditions=list)
         stored, predicted = _stored(), a_prediction()
-        link: Any = SimpleNamespace(life=life, load_program=lambda p: None, ask=self._ask)
+        link: Any = SimpleNamespace(life=life, load_program=lambda p, lease: None, ask=self._ask)
         recorder: Any = SimpleNamespace(following=life)
         fakes: Any = SimpleNamespace(
             definition_of=lambda test_id, revision: stored,
             of=lambda definition, wait_s: predicted,
+            stands=lambda definition, predicted: self.stands,
             refusal_for=lambda duration_s: None,
         )
-        needs = Needs(fakes, fakes, fakes, lambda: None, self.given_up.append)
+        needs = Needs(fakes, fakes, fakes, self._in_command, lambda: None, self.given_up.append)
         book: Any = SimpleNamespace(reading=self.database.reading, writing=self._writing)
         frozen = Frozen(controller={}, interlocks={}, rig={})
-        self.starter = Starter(book, folder, link, recorder, frozen, Plans(), needs)
+        self.starter = Starter(book, folder, link, recorder, lambda: frozen, Plans(), needs)
 
     def open_runs(self) -> list[int]:
         with self.database.reading() as session:
             return [run.id for run in repository.without_outcome(session)]
 
     def start(self) -> Run | Refusal:
-        return self.starter.start(RunStart(test_id="hold"))
+        return self.starter.start(RunStart(test_id="hold"), ANN)
 
-    def _ask(self, opcode: Opcode, argument: int) -> Any:
-        assert opcode is Opcode.START
+    def _in_command(self, who: Principal, lease: int | None) -> int | Refusal:
+        return EPOCH if self.commands else Refusal(Code.LEASE_NEEDED, "Nobody is in command")
+
+    def _ask(self, opcode: Opcode, argument: int, *, lease: int) -> Any:
+        assert (opcode, lease) == (Opcode.START, EPOCH)
         return self.answers.pop(0)()
 
     @contextmanager
@@ -105,3 +115,20 @@ def test_a_run_that_the_loop_has_begun_is_not_given_up_by_the_next(lab: Lab) -> 
     assert isinstance(run, Run)
     lab.start()
     assert lab.given_up == []
+
+
+def test_who_is_not_in_command_starts_nothing(lab: Lab) -> None:
+    lab.commands = False
+    refusal = lab.start()
+    assert isinstance(refusal, Refusal)
+    assert refusal.code is Code.LEASE_NEEDED
+    assert lab.open_runs() == []
+
+
+def test_what_was_predicted_under_other_interlocks_is_not_started(lab: Lab) -> None:
+    lab.stands = False
+    refusal = lab.start()
+    assert isinstance(refusal, Refusal)
+    assert refusal.code is Code.BUSY
+    assert "interlocks have changed" in refusal.detail
+    assert lab.open_runs() == []
