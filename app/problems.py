@@ -17,6 +17,7 @@ from app.errors import Code, Fault, Refusal
 T = TypeVar("T")
 MEDIA_TYPE = "application/problem+json"
 LONGEST_VALUE = 200
+_SECRET = frozenset({"password", "old", "new"})
 
 STATUS: Mapping[Code, int] = {
     Code.INVALID_REQUEST: 422,
@@ -170,9 +171,19 @@ def _shown(value: Any) -> Any:
     return text if len(text) <= LONGEST_VALUE else text[:LONGEST_VALUE] + "…"
 
 
+def _sent(error: Mapping[str, Any]) -> Any:
+    """What was sent there. Not where something is missing, or nothing could be read: what came
+    instead may hold a password."""
+    place = error["loc"]
+    whole = place == ("body",) and isinstance(error.get("input"), str | bytes)
+    if whole or error["type"] == "missing" or place[-1] in _SECRET:
+        return None
+    return _shown(error.get("input"))
+
+
 def invalid_request(error: RequestValidationError) -> Refusal:
     """What FastAPI found wrong in a request, as a refusal."""
-    faults = tuple(Fault(_path(e["loc"]), _shown(e.get("input")), e["msg"]) for e in error.errors())
+    faults = tuple(Fault(_path(e["loc"]), _sent(e), e["msg"]) for e in error.errors())
     detail = "; ".join(f"{fault.path}: {fault.expected}" for fault in faults)
     return Refusal(Code.INVALID_REQUEST, detail or "The request could not be understood", faults)
 
