@@ -1,7 +1,7 @@
 """What a run is made with besides the test: rig, controller and interlocks, from files or shipped."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -12,6 +12,7 @@ from app.controller.settings import ControllerSettings
 from app.errors import Code, Refusal
 from app.interlocks.defaults import default_interlocks
 from app.interlocks.record import load_interlocks
+from app.interlocks.safeguards import adoptable
 from app.interlocks.table import Interlocks
 from app.settings import Settings
 from rtcore.rig.parameters import RigParameters, load_rig
@@ -26,6 +27,7 @@ class Presets:
     controller: ControllerSettings
     interlocks: Interlocks
     rig: RigParameters
+    interlocks_file: Path | None = None  # that they are of; None: as shipped
 
 
 def load_presets(settings: Settings) -> Presets | Refusal:
@@ -33,13 +35,25 @@ def load_presets(settings: Settings) -> Presets | Refusal:
     controller = _from(settings.controller_file, load_controller, ControllerSettings)
     if isinstance(controller, Refusal):
         return controller
-    interlocks = _from(settings.interlocks_file, load_interlocks, default_interlocks)
+    interlocks = _from(settings.interlocks_file, _guarded, default_interlocks)
     if isinstance(interlocks, Refusal):
         return interlocks
     try:
-        return Presets(controller, interlocks, load_rig(settings.rig_file))
+        rig = load_rig(settings.rig_file)
+        return Presets(controller, interlocks, rig, settings.interlocks_file)
     except (OSError, ValueError, yaml.YAMLError) as error:
         return Refusal(Code.INVALID_REQUEST, f"{settings.rig_file}: {' '.join(str(error).split())}")
+
+
+def _guarded(path: Path) -> Interlocks | Refusal:
+    """The interlocks of a file, which protect as the shipped ones do or say that they do not."""
+    table = load_interlocks(path)
+    if isinstance(table, Refusal):
+        return table
+    found = adoptable(table)
+    if isinstance(found, Refusal):
+        return replace(found, detail=f"{path}: {found.detail}")
+    return found
 
 
 def _from(

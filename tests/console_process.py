@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import signal
+import ssl
 import subprocess
 import sys
 import time
@@ -65,7 +66,11 @@ class ConsoleProcess:
     """Starts, kills and restarts the console on one data directory."""
 
     def __init__(
-        self, folder: Path, database_url: str | None = None, interlocks: Path | None = None
+        self,
+        folder: Path,
+        database_url: str | None = None,
+        interlocks: Path | None = None,
+        certificate: tuple[Path, Path] | None = None,
     ) -> None:
         self.data = folder / "data"
         self.block = block_path(self.data)
@@ -77,6 +82,11 @@ class ConsoleProcess:
         if database_url is not None:
             self._environment["FORCERIG_DATABASE_URL"] = database_url
         self.database_url = database_url or f"sqlite:///{self.data / 'forcerig.sqlite'}"
+        self._verify: ssl.SSLContext | bool = True
+        if certificate is not None:
+            names = ("FORCERIG_TLS_CERT", "FORCERIG_TLS_KEY")
+            self._environment |= dict(zip(names, map(str, certificate), strict=True))
+            self._verify = ssl.create_default_context(cafile=str(certificate[0]))
         self._process: subprocess.Popen[bytes] | None = None
         self.url = ""
         self._epoch = 0  # of the lease that the tests took last
@@ -110,7 +120,9 @@ class ConsoleProcess:
     def client(self, token: str | None = None) -> httpx2.Client:
         """Somebody who asks, with this token or with nothing."""
         headers = {} if token is None else bearer(token)
-        made = httpx2.Client(base_url=f"{self.url}/api/v1", timeout=30, headers=headers)
+        made = httpx2.Client(
+            base_url=f"{self.url}/api/v1", timeout=30, headers=headers, verify=self._verify
+        )
         self._clients.append(made)
         return made
 

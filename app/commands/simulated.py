@@ -54,21 +54,31 @@ def _judging(m: Margin) -> Judging:
     return Judging(quantity, form, band, m.threshold, m.low, None)
 
 
+def _without(prediction: Prediction) -> dict[str, list[str]]:
+    """The interlocks of which nothing can be said, by the reason why."""
+    found: dict[str, list[str]] = {}
+    for m in prediction.margins:
+        if m.margin is None:
+            found.setdefault(m.note, []).append(m.detector)
+    return found
+
+
 def print_prediction(prediction: Prediction) -> None:
     """How near each interlock comes, what stands against the test, and the verdict."""
     console = text_console()
     table = Table("interlock")
     for heading in ("reaches", "limit", "margin", "at"):
         table.add_column(heading, justify="right")
-    for m in prediction.margins:
+    for m in (m for m in prediction.margins if m.margin is not None):
         judging = _judging(m)
-        reaches = "" if m.extreme is None else judging.write(m.extreme)
+        reaches = m.note if m.extreme is None else judging.write(m.extreme)
         share = "" if m.margin_share is None else f"{100 * m.margin_share:.0f} %"
         at = "" if m.time_s is None else f"{m.time_s:,.3f} s"
-        trips = m.margin is not None and m.margin < 0
-        row = (m.detector, m.note or reaches, judging.allowed(), share, at)
-        table.add_row(*row, style="red" if trips else "dim" if m.margin is None else "")
+        row = (m.detector, reaches, judging.allowed(), share, at)
+        table.add_row(*row, style="red" if m.margin is not None and m.margin < 0 else "")
     console.print(table)
+    for note, names in _without(prediction).items():
+        console.print(f"{note}: {', '.join(names)}", style="dim", markup=False, soft_wrap=True)
     for reason in prediction.reasons:
         colour = COLOURS[PredictionVerdict(reason.severity)]
         console.print(reason.text, style=colour, markup=False)

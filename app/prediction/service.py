@@ -54,7 +54,9 @@ class Predictions:
         rig: RigParameters,
         predictor: Predictor = predict,
     ) -> None:
-        self._settings = (rig, controller, interlocks)
+        self._rig = rig
+        self._controller = controller
+        self._interlocks = interlocks
         self._predict = predictor
         # At the priority of the console's other threads: one that is put off by other work while it
         # holds the interpreter's lock puts off the heartbeat too.
@@ -65,6 +67,17 @@ class Predictions:
         self._lock = threading.Lock()
         self._ending = threading.Event()
 
+    def turn_to(self, interlocks: Interlocks) -> None:
+        """Predict with this table from now on."""
+        self._interlocks = interlocks
+
+    def stands(self, definition: Definition, predicted: Predicted) -> bool:
+        """Whether a prediction was made with what is in force now."""
+        return predicted.prediction.key == key_of(self._setup(definition))
+
+    def _setup(self, definition: Definition) -> Setup:
+        return Setup(definition, self._rig, self._controller, self._interlocks)
+
     def of(
         self, definition: Definition, wait_s: float, *, draft: bool = False
     ) -> Predicted | Computing | Refusal:
@@ -73,7 +86,7 @@ class Predictions:
         Whoever asks for the same joins the same computation; who asks for another one cancels nothing.
         A draft is a test that cannot be started: it is not saved.
         """
-        setup = Setup(definition, *self._settings)
+        setup = self._setup(definition)
         key = key_of(setup)
         with self._lock:
             known = self._kept.get(key)

@@ -47,6 +47,6 @@ def test_a_pump_that_fails_trips_once_the_accumulator_is_down(rig: Virtual) -> N
 def test_a_sensor_that_is_dead_before_the_start_blocks_the_reset(rig: Virtual) -> None:
     rig.io.world["sensors"]["force_noise_n"] = 0.0  # frozen to the last bit
     rig.advance(1000)
-    assert tripped_by(rig) == "sensor_faults"
+    assert tripped_by(rig) == "load_cell"
     assert rig.command(Opcode.RESET) == Reply.CAUSE_PRESENT
     assert rig.mode == Mode.TRIPPED

@@ -48,6 +48,7 @@ def detectors(draw: st.DrawFn, name: str) -> Detector:
     most = 1e9 if reach.high is None else reach.high
     inside = st.floats(least, most, exclude_min=True, exclude_max=True)
     low, threshold = sorted(draw(st.tuples(inside, inside).filter(lambda pair: pair[0] != pair[1])))
+    magnitude = draw(st.floats(0.0, most, exclude_max=True))
     action = draw(st.sampled_from(Action))
     band = comparison is Comparison.OUTSIDE
     return Detector(
@@ -55,7 +56,7 @@ def detectors(draw: st.DrawFn, name: str) -> Detector:
         quantity=quantity,
         form=form,
         comparison=comparison,
-        threshold=abs(threshold) if comparison is Comparison.MAGNITUDE_ABOVE else threshold,
+        threshold=magnitude if comparison is Comparison.MAGNITUDE_ABOVE else threshold,
         low=low if band else None,
         horizon_s=draw(st.floats(1e-4, 1.0)) if form is Form.LOOK_AHEAD else None,
         smoothing_s=draw(st.none() | st.floats(1e-4, 10.0)) if form is not Form.VALUE else None,

@@ -1,0 +1,88 @@
+"""Tables as requests give and take them."""
+
+from typing import Any
+
+from app.errors import Refusal
+from app.interlocks.difference import difference
+from app.interlocks.models import InterlocksRevision
+from app.interlocks.safeguards import GUARDED, adoptable, shortfalls
+from app.interlocks.schemas import (
+    DetectorChangeOut,
+    InterlocksCheck,
+    InterlocksDifference,
+    InterlocksOut,
+    InterlocksText,
+    RevisionOut,
+    RevisionSummary,
+    Weakened,
+)
+from app.interlocks.service import Revision
+from app.interlocks.table import Interlocks
+from app.problems import FaultOut
+
+
+def document(body: InterlocksText) -> dict[str, Any]:
+    """The table in a request, as plain data."""
+    return {"detectors": body.detectors, "knowingly_weaker": body.knowingly_weaker}
+
+
+def in_force(revision: Revision, *, in_loop: bool) -> InterlocksOut:
+    """The newest revision."""
+    return InterlocksOut(
+        revision=revision.number,
+        author=revision.author,
+        why=revision.why,
+        created_at=revision.created_at,
+        in_loop=in_loop,
+        detectors=revision.interlocks.detectors,
+        knowingly_weaker=revision.interlocks.knowingly_weaker,
+        guarded=GUARDED,
+    )
+
+
+def summary(row: InterlocksRevision) -> RevisionSummary:
+    """A revision without its table."""
+    return RevisionSummary.model_validate(row, from_attributes=True)
+
+
+def revision(found: Revision) -> RevisionOut:
+    """A revision with its table."""
+    return RevisionOut(
+        number=found.number,
+        author=found.author,
+        why=found.why,
+        created_at=found.created_at,
+        detectors=found.interlocks.detectors,
+        knowingly_weaker=found.interlocks.knowingly_weaker,
+    )
+
+
+def difference_of(
+    before: Interlocks, after: Interlocks, numbers: tuple[int | None, int | None]
+) -> InterlocksDifference:
+    """What two tables differ in."""
+    found = difference(before, after)
+    return InterlocksDifference(
+        before=numbers[0],
+        to=numbers[1],
+        detectors=[
+            DetectorChangeOut.model_validate(change, from_attributes=True)
+            for change in found.detectors
+        ],
+        reordered=found.reordered,
+    )
+
+
+def checked(table: Interlocks | Refusal, now: Revision) -> InterlocksCheck:
+    """Whether a table could be put in force on top of this revision."""
+    if isinstance(table, Refusal):
+        errors = [FaultOut.of(fault) for fault in table.faults]
+        return InterlocksCheck(valid=False, errors=errors, weakened=[], difference=None)
+    found = adoptable(table)
+    faults = found.faults if isinstance(found, Refusal) else ()
+    return InterlocksCheck(
+        valid=not isinstance(found, Refusal),
+        errors=[FaultOut.of(fault) for fault in faults],
+        weakened=[Weakened(detector=s.detector, text=s.text) for s in shortfalls(table)],
+        difference=difference_of(now.interlocks, table, (now.number, None)),
+    )
