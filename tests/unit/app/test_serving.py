@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from app.serving import CannotServe, bind, hold_data_folder, url_of
+from app.serving import CannotServe, bind, check_exposure, hold_data_folder, url_of
+from app.settings import Settings
 
 
 def test_any_free_port_and_its_address() -> None:
@@ -61,3 +62,25 @@ def test_the_console_goes_before_other_work_where_it_may() -> None:
     )
     before, after, user = (int(word) for word in said.stdout.split())
     assert after == (-10 if user == 0 else before)
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "127.0.0.5", "::1", "localhost"])
+def test_this_machine_alone_is_served_in_clear(host: str) -> None:
+    check_exposure(Settings(host=host))
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "192.0.2.1"])
+def test_other_machines_are_served_in_clear_only_by_the_explicit_word(host: str) -> None:
+    with pytest.raises(CannotServe, match="--plain-http") as refused:
+        check_exposure(Settings(host=host))
+    assert "\n" not in str(refused.value)
+    check_exposure(Settings(host=host, plain_http=True))
+
+
+def test_what_is_no_certificate_is_told(tmp_path: Path) -> None:
+    file = tmp_path / "certificate.pem"
+    file.write_text("nothing of the kind")
+    with pytest.raises(CannotServe, match="no certificate"):
+        check_exposure(Settings(tls_cert=file, tls_key=file))
+    with pytest.raises(CannotServe, match="needs both"):
+        check_exposure(Settings(tls_key=file, plain_http=True))
