@@ -17,7 +17,7 @@ from app.interlocks.schemas import (
     LiveInterlocks,
     Number,
     RevisionOut,
-    RevisionSummary,
+    TableRevision,
 )
 from app.interlocks.service import Wanted
 from app.problems import PROBLEMS, granted
@@ -65,7 +65,7 @@ def list_revisions(
         Number | None, Query(description="the last number of the page before")
     ] = None,
     limit: Annotated[int, Query(ge=1, le=1000)] = 100,
-) -> list[RevisionSummary]:
+) -> list[TableRevision]:
     """The revisions, the newest first."""
     return [shown.summary(row) for row in tables.revisions(before, limit)]
 

@@ -34,7 +34,7 @@ class InterlocksChange(InterlocksText):
     lease: Annotated[int, Field(ge=0, le=2**53)] | None = None
 
 
-class RevisionSummary(BaseModel):
+class TableRevision(BaseModel):
     """A table that was once in force: by whom, when and why."""
 
     number: int
@@ -43,7 +43,7 @@ class RevisionSummary(BaseModel):
     created_at: datetime
 
 
-class RevisionOut(RevisionSummary):
+class RevisionOut(TableRevision):
     """With its table. Number 0 is the one as shipped."""
 
     detectors: tuple[Detector, ...]

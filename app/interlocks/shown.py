@@ -13,7 +13,7 @@ from app.interlocks.schemas import (
     InterlocksOut,
     InterlocksText,
     RevisionOut,
-    RevisionSummary,
+    TableRevision,
     Weakened,
 )
 from app.interlocks.service import Revision
@@ -40,9 +40,9 @@ def in_force(revision: Revision, *, in_loop: bool) -> InterlocksOut:
     )
 
 
-def summary(row: InterlocksRevision) -> RevisionSummary:
+def summary(row: InterlocksRevision) -> TableRevision:
     """A revision without its table."""
-    return RevisionSummary.model_validate(row, from_attributes=True)
+    return TableRevision.model_validate(row, from_attributes=True)
 
 
 def revision(found: Revision) -> RevisionOut:
