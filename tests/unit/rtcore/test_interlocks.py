@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterable
+from enum import IntEnum
 from typing import Any
 
 import pytest
@@ -11,11 +12,13 @@ from hypothesis import strategies as st
 from rtcore.interlocks import (
     DETECTOR,
     MAX_DETECTORS,
+    NO_ACTION,
     TREND,
     Action,
     Comparison,
     Form,
     Quantity,
+    SensorFault,
     armed_in,
     check_detector,
     interlocks_are_valid,
@@ -70,16 +73,32 @@ def test_a_detector_counts_only_where_it_is_armed_and_enabled() -> None:
     [
         {"quantity": len(Quantity)},
         {"quantity": -1},
+        {"quantity": len(Quantity) + 1},
+        {"quantity": -2},
         {"form": len(Form)},
         {"form": -1},
+        {"form": len(Form) + 1},
+        {"form": -2},
         {"horizon_s": -1.0},
         {"horizon_s": math.inf},
+        {"horizon_s": math.nan},
         {"smoothing_s": math.nan},
+        {"smoothing_s": math.inf},
+        {"smoothing_s": -1.0},
+        {"comparison": Comparison.OUTSIDE, "low": 55e3},
+        {"comparison": Comparison.OUTSIDE, "low": -math.inf},
         {"comparison": Comparison.OUTSIDE, "low": 56e3},
         {"comparison": Comparison.OUTSIDE, "low": math.nan},
         {"comparison": len(Comparison)},
+        {"comparison": len(Comparison) + 1},
+        {"comparison": -1},
+        {"comparison": -2},
         {"action": len(Action)},
+        {"action": len(Action) + 1},
+        {"action": -1},
+        {"action": -2},
         {"persistence_ticks": 0},
+        {"persistence_ticks": -1},
         {"threshold": math.nan},
         {"threshold": math.inf},
     ],
@@ -110,8 +129,39 @@ def test_a_detector_may_be_all_that_its_fields_can_say() -> None:
         assert sorted(members) == list(range(len(members)))
         for member in members:
             assert interlocks_are_valid(interlocks({**FORCE_LIMIT, name: member, "low": -55e3}))
-    assert interlocks_are_valid(interlocks({**FORCE_LIMIT, "horizon_s": 0.0, "smoothing_s": 0.0}))
-    assert interlocks_are_valid(interlocks({**FORCE_LIMIT, "persistence_ticks": 1}))
+    for ticks, seconds in ((1, 0.0), (2, 0.5), (240_000, 60.0)):
+        times = {"persistence_ticks": ticks, "horizon_s": seconds, "smoothing_s": seconds}
+        assert interlocks_are_valid(interlocks({**FORCE_LIMIT, **times}))
+    assert interlocks_are_valid(interlocks({**FORCE_LIMIT, "low": 56e3}))  # no band: not looked at
+
+
+@pytest.mark.parametrize(
+    ("members", "names"),
+    [
+        (Form, "VALUE RATE LOOK_AHEAD"),
+        (Comparison, "MAGNITUDE_ABOVE ABOVE BELOW OUTSIDE"),
+        (Action, "INDICATE HOLD STOP SHUTDOWN"),
+        (
+            SensorFault,
+            "NONE NOT_A_NUMBER SATURATED FROZEN NOISE_FREE OUT_OF_RANGE IMPLAUSIBLE",
+        ),
+        (
+            Quantity,
+            "FORCE_N FORCE_ERROR_N DISPLACEMENT_M VELOCITY_M_S SUPPLY_PRESSURE_PA LOAD_CELL APP_SILENCE_S"
+            " DEADLINES_MISSED LVT LVDT PRESSURE_SENSOR FORCE_ERROR_RELATIVE UNDERPEAK VALVE_COMMAND"
+            " VALVE_SATURATION CYCLES TWIN_RESIDUAL_N TWIN_GOODNESS UNRECORDED_S CHAIN_OPEN"
+            " DISPLACEMENT_ERROR_M PRESSURE_1_PA PRESSURE_2_PA",
+        ),
+    ],
+)
+def test_what_crosses_the_memory_is_numbered_as_recordings_have_it(
+    members: type[IntEnum], names: str
+) -> None:
+    assert {member.name: int(member) for member in members} == {
+        name: number for number, name in enumerate(names.split())
+    }
+    assert NO_ACTION == -1 < min(Action)
+    assert MAX_DETECTORS == 64  # the bits of the trips
 
 
 @given(low=finite, high=finite, value=finite)
