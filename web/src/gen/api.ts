@@ -252,6 +252,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/first-outs/{number}/replay": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Replay First Out
+         * @description The detectors over the recorded ticks, by the loop's own check, with values of them changed.
+         */
+        post: operations["replayFirstOut"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/first-outs/{number}/rerun": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Rerun First Out
+         * @description The same once more on the virtual rig, without and with one value changed.
+         */
+        post: operations["rerunFirstOut"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/first-outs/{number}/samples": {
         parameters: {
             query?: never;
@@ -294,6 +334,240 @@ export interface paths {
          */
         post: operations["addHistory"];
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/interlocks": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Interlocks
+         * @description The table in force, by whom, when and why, and whether the loop has it.
+         */
+        get: operations["getInterlocks"];
+        /**
+         * Change Interlocks
+         * @description Put another table in force, whole or not at all. An old revision is restored by giving it again.
+         */
+        put: operations["changeInterlocks"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/interlocks/check": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check Interlocks
+         * @description What is wrong with a table, and what it would change. Nothing is adopted.
+         */
+        post: operations["checkInterlocks"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/interlocks/difference": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Difference
+         * @description What two revisions differ in, detector by detector, in words.
+         */
+        get: operations["getInterlocksDifference"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/interlocks/live": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Live Interlocks
+         * @description What every detector sees now.
+         */
+        get: operations["getLiveInterlocks"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/interlocks/revisions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Revisions
+         * @description The revisions, the newest first.
+         */
+        get: operations["listInterlocksRevisions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/interlocks/revisions/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Revision
+         * @description A table as it was in force once; 0 is the one as shipped.
+         */
+        get: operations["getInterlocksRevision"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/lease": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Lease
+         * @description Who is in command; null where nobody is.
+         */
+        get: operations["getLease"];
+        put?: never;
+        /**
+         * Take Lease
+         * @description Take command. Answers once the loop obeys nobody else.
+         *
+         *     It lasts `ttl_s` after each sign of its holder: a beat, or any other request.
+         */
+        post: operations["takeLease"];
+        /**
+         * Release Lease
+         * @description Give command up. A test that runs goes on.
+         */
+        delete: operations["releaseLease"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/lease/beat": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Beat Lease
+         * @description Stay in command.
+         */
+        post: operations["beatLease"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/lease/hand-over": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Hand Over Lease
+         * @description Give command to whoever made a request.
+         */
+        post: operations["handOverLease"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/lease/requests": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Request Lease
+         * @description Ask whoever is in command for it. Stands for a minute; asking again takes its place.
+         */
+        post: operations["requestLease"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/lease/requests/{request_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Decline Lease Request
+         * @description Decline a request, in command, or withdraw one's own.
+         */
+        delete: operations["declineLeaseRequest"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1366,6 +1640,12 @@ export interface components {
             title: string;
         };
         /**
+         * Action
+         * @description What a violated detector does; the strongest of several wins.
+         * @enum {integer}
+         */
+        Action: 0 | 1 | 2 | 3;
+        /**
          * AuditEntry
          * @description Who did what, when and why. `outcome` is "done", or "refused: " and the code of the refusal.
          *
@@ -1482,6 +1762,16 @@ export interface components {
             saturation_share: number | null;
         };
         /**
+         * Change
+         * @description One value, by a path such as `controller.k_p` or `interlocks.force_error.threshold`.
+         */
+        Change: {
+            /** Path */
+            path: string;
+            /** Value */
+            value: boolean | number | string | string[] | null;
+        };
+        /**
          * ChangeKind
          * @description What became of a value.
          * @enum {string}
@@ -1555,11 +1845,19 @@ export interface components {
         };
         /**
          * CommandRequest
-         * @description A command to the rig.
+         * @description A command to the rig. Without `lease` it bears the epoch that the caller holds.
          */
         CommandRequest: {
             command: components["schemas"]["RigCommand"];
+            /** Lease */
+            lease?: number | null;
         };
+        /**
+         * Comparison
+         * @description When a detector is violated; a NaN violates all of them.
+         * @enum {integer}
+         */
+        Comparison: 0 | 1 | 2 | 3;
         /**
          * Computing
          * @description A prediction that is under way; ask again for it.
@@ -1587,6 +1885,18 @@ export interface components {
             name: string;
             /** Reason */
             reason: string;
+        };
+        /**
+         * CourseOut
+         * @description One course of what happened: times are seconds from the tick of the recorded first-out.
+         */
+        CourseOut: {
+            first_out: components["schemas"]["TripKept"] | null;
+            /** Peaks */
+            peaks: components["schemas"]["PeakKept"][];
+            samples: components["schemas"]["RunSamples"] | null;
+            /** Trips */
+            trips: components["schemas"]["TripKept"][];
         };
         /**
          * CriterionOut
@@ -1621,6 +1931,97 @@ export interface components {
             /** Text */
             text: string;
         };
+        /**
+         * Detector
+         * @description Watches one quantity, and acts once what it makes of that has been beyond a limit for long enough.
+         */
+        Detector: {
+            /**
+             * Action
+             * @enum {string}
+             */
+            action: "indicate" | "hold" | "stop" | "shutdown";
+            /** Armed */
+            armed: ("tripped" | "off" | "pressurising" | "ready" | "running" | "holding" | "stopping")[];
+            /**
+             * Comparison
+             * @enum {string}
+             */
+            comparison: "magnitude_above" | "above" | "below" | "outside";
+            /**
+             * Enabled
+             * @default true
+             */
+            enabled: boolean;
+            /**
+             * Form
+             * @default value
+             * @enum {string}
+             */
+            form: "value" | "rate" | "look_ahead";
+            /**
+             * Horizon S
+             * @description of a look-ahead
+             */
+            horizon_s?: number | null;
+            /**
+             * Latching
+             * @description a stop and a shutdown always latch
+             * @default true
+             */
+            latching: boolean;
+            /**
+             * Low
+             * @description of a band, its lower end
+             */
+            low?: number | null;
+            /** Name */
+            name: string;
+            /**
+             * Persistence S
+             * @description 0: trips at once
+             * @default 0
+             */
+            persistence_s: number;
+            /**
+             * Quantity
+             * @enum {string}
+             */
+            quantity: "force_n" | "force_error_n" | "displacement_m" | "velocity_m_s" | "supply_pressure_pa" | "load_cell" | "app_silence_s" | "deadlines_missed" | "lvt" | "lvdt" | "pressure_sensor" | "force_error_relative" | "underpeak" | "valve_command" | "valve_saturation" | "cycles" | "twin_residual_n" | "twin_goodness" | "unrecorded_s" | "chain_open" | "displacement_error_m" | "pressure_1_pa" | "pressure_2_pa";
+            /**
+             * Smoothing S
+             * @description of the rate
+             */
+            smoothing_s?: number | null;
+            /**
+             * Text
+             * @description for the operator
+             * @default
+             */
+            text: string;
+            /**
+             * Threshold
+             * @description in the unit of the quantity; of a rate, that per second
+             */
+            threshold: number;
+        };
+        /**
+         * DetectorChangeOut
+         * @description What became of a detector, a line for each thing that is other.
+         */
+        DetectorChangeOut: {
+            /** Detector */
+            detector: string;
+            kind: components["schemas"]["ChangeKind"];
+            /** Lines */
+            lines: string[];
+        };
+        /**
+         * DetectorState
+         * @description What a detector is doing.
+         * @enum {string}
+         */
+        DetectorState: "off" | "not_armed" | "content" | "counting" | "tripped";
         /**
          * Diagnosis
          * @description Whether this machine is fit for real time. `measured` says what wake-ups it is judged by.
@@ -1868,6 +2269,20 @@ export interface components {
             value: number | null;
         };
         /**
+         * Form
+         * @description Which value is made of a quantity before it is compared.
+         * @enum {integer}
+         */
+        Form: 0 | 1 | 2;
+        /**
+         * HandOver
+         * @description Give command to whoever made this request.
+         */
+        HandOver: {
+            /** Request Id */
+            request_id: number;
+        };
+        /**
          * Health
          * @description `ok` is false where the loop is lost or the recorder cannot write.
          */
@@ -2113,6 +2528,94 @@ export interface components {
             name: string;
         };
         /**
+         * InterlocksChange
+         * @description Another table; `based_on` is the revision that it was made from, `lease` the epoch of one's own.
+         */
+        InterlocksChange: {
+            /** Based On */
+            based_on: number;
+            /** Detectors */
+            detectors: {
+                [key: string]: unknown;
+            }[];
+            /**
+             * Knowingly Weaker
+             * @default []
+             */
+            knowingly_weaker: string[];
+            /** Lease */
+            lease?: number | null;
+            /** Why */
+            why: string;
+        };
+        /**
+         * InterlocksCheck
+         * @description Whether a table could be put in force, and what would change. Nothing was adopted.
+         */
+        InterlocksCheck: {
+            difference: components["schemas"]["InterlocksDifference"] | null;
+            /** Errors */
+            errors: components["schemas"]["FaultOut"][];
+            /** Valid */
+            valid: boolean;
+            /** Weakened */
+            weakened: components["schemas"]["Weakened"][];
+        };
+        /**
+         * InterlocksDifference
+         * @description What two revisions differ in; null for one that is not stored.
+         */
+        InterlocksDifference: {
+            /** Before */
+            before: number | null;
+            /** Detectors */
+            detectors: components["schemas"]["DetectorChangeOut"][];
+            /** Reordered */
+            reordered: boolean;
+            /** To */
+            to: number | null;
+        };
+        /**
+         * InterlocksOut
+         * @description The table in force. `in_loop` is whether the loop watches with it, `guarded` what it may not lack unsaid.
+         */
+        InterlocksOut: {
+            /** Author */
+            author: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Detectors */
+            detectors: components["schemas"]["Detector"][];
+            /** Guarded */
+            guarded: string[];
+            /** In Loop */
+            in_loop: boolean;
+            /** Knowingly Weaker */
+            knowingly_weaker: string[];
+            /** Revision */
+            revision: number;
+            /** Why */
+            why: string;
+        };
+        /**
+         * InterlocksText
+         * @description A table as plain data; `knowingly_weaker` names the guarded detectors that it falls short of.
+         */
+        InterlocksText: {
+            /** Detectors */
+            detectors: {
+                [key: string]: unknown;
+            }[];
+            /**
+             * Knowingly Weaker
+             * @default []
+             */
+            knowingly_weaker: string[];
+        };
+        /**
          * JudgedCriterion
          * @description An acceptance criterion and what it came to; block is null where it is about the whole run.
          */
@@ -2151,6 +2654,90 @@ export interface components {
              * @default 0
              */
             mean_n: number;
+        };
+        /**
+         * LeaseAsk
+         * @description Ask whoever is in command for it.
+         */
+        LeaseAsk: {
+            /**
+             * Reason
+             * @default
+             */
+            reason: string;
+        };
+        /**
+         * LeaseBeat
+         * @description A sign of whoever is in command.
+         */
+        LeaseBeat: {
+            /** Epoch */
+            epoch: number;
+        };
+        /**
+         * LeaseOut
+         * @description Who is in command. Every command bears the `epoch`, which each change of holder renews.
+         */
+        LeaseOut: {
+            /** Epoch */
+            epoch: number;
+            /** Expires In S */
+            expires_in_s: number;
+            /** Holder */
+            holder: string;
+            /** Holder Id */
+            holder_id: string;
+            /** Reason */
+            reason: string;
+            /** Requests */
+            requests: components["schemas"]["LeaseRequestOut"][];
+            /** Role */
+            role: string;
+            /**
+             * Since
+             * Format: date-time
+             */
+            since: string;
+        };
+        /**
+         * LeaseRequestOut
+         * @description Somebody who asks for command, until it is answered or a minute has passed.
+         */
+        LeaseRequestOut: {
+            /** Id */
+            id: number;
+            /** Name */
+            name: string;
+            /** Reason */
+            reason: string;
+            /** Requester Id */
+            requester_id: string;
+            /**
+             * Since
+             * Format: date-time
+             */
+            since: string;
+        };
+        /**
+         * LeaseWish
+         * @description Take command. Over from somebody only as an engineer, and with a reason.
+         */
+        LeaseWish: {
+            /**
+             * Reason
+             * @default
+             */
+            reason: string;
+            /**
+             * Take Over
+             * @default false
+             */
+            take_over: boolean;
+            /**
+             * Ttl S
+             * @default 10
+             */
+            ttl_s: number;
         };
         /**
          * Leaving
@@ -2196,6 +2783,47 @@ export interface components {
             expires_at: string;
             /** Path */
             path: string;
+        };
+        /**
+         * LiveDetector
+         * @description What a detector sees: the value that it judges, how far that is from its limit, and since when it is beyond.
+         *
+         *     Null is what is no number; `text` and `limit` say it with units as operators read them.
+         */
+        LiveDetector: {
+            /** First Out */
+            first_out: boolean;
+            /** Limit */
+            limit: string;
+            /** Margin */
+            margin: number | null;
+            /** Margin Share */
+            margin_share: number | null;
+            /** Name */
+            name: string;
+            state: components["schemas"]["DetectorState"];
+            /** Text */
+            text: string;
+            /** Trips */
+            trips: number;
+            /** Unit */
+            unit: string | null;
+            /** Value */
+            value: number | null;
+            /** Violated S */
+            violated_s: number;
+        };
+        /**
+         * LiveInterlocks
+         * @description All detectors at a tick, in the order of the table.
+         */
+        LiveInterlocks: {
+            /** Detectors */
+            detectors: components["schemas"]["LiveDetector"][];
+            /** Mode */
+            mode: string;
+            /** Tick */
+            tick: number;
         };
         /**
          * LoopHealth
@@ -2352,6 +2980,12 @@ export interface components {
             value: number;
         };
         /**
+         * Mode
+         * @description What the rig is doing. `TRIPPED` is how the loop starts.
+         * @enum {integer}
+         */
+        Mode: 0 | 1 | 2 | 3 | 4 | 5 | 6;
+        /**
          * ModeWord
          * @description State of the loop; `starting` until its first sign of life, `lost` without one.
          * @enum {string}
@@ -2376,6 +3010,16 @@ export interface components {
             min_displacement_m: number;
             /** Start S */
             start_s: number;
+        };
+        /**
+         * NotReplayed
+         * @description A detector whose quantity the recording does not tell; its recorded trips stand.
+         */
+        NotReplayed: {
+            /** Detector */
+            detector: string;
+            /** Why */
+            why: string;
         };
         /**
          * Outcome
@@ -2611,6 +3255,12 @@ export interface components {
             value: unknown;
         };
         /**
+         * Quantity
+         * @description What a detector may watch. See `rtcore.quantities` for those that are derived.
+         * @enum {integer}
+         */
+        Quantity: 0 | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 | 13 | 14 | 15 | 16 | 17 | 18 | 19 | 20 | 21 | 22;
+        /**
          * Reason
          * @description Why a prediction is not clear, in a sentence to act on; where and when, counted from the start.
          */
@@ -2642,6 +3292,91 @@ export interface components {
             recording: boolean;
             /** Trouble */
             trouble: string | null;
+        };
+        /**
+         * ReplayAsked
+         * @description Values of detectors to change, by paths such as `force_error.threshold`.
+         */
+        ReplayAsked: {
+            /**
+             * Interlocks
+             * @default {}
+             */
+            interlocks: {
+                [key: string]: boolean | number | string | string[] | null;
+            };
+        };
+        /**
+         * ReplayOut
+         * @description What trips over the recorded ticks; `first_out` is that of the changed table, null where the rig goes on.
+         *
+         *     `reproduces` is whether the unchanged table trips exactly as the loop did.
+         */
+        ReplayOut: {
+            /** Changed */
+            changed: components["schemas"]["TripKept"][];
+            /** Changes */
+            changes: components["schemas"]["ValueChanged"][];
+            first_out: components["schemas"]["TripKept"] | null;
+            /** Not Replayed */
+            not_replayed: components["schemas"]["NotReplayed"][];
+            /** Recorded */
+            recorded: components["schemas"]["TripKept"][];
+            /** Reproduces */
+            reproduces: boolean;
+            /** Text */
+            text: string;
+            /** Unchanged */
+            unchanged: components["schemas"]["TripKept"][];
+        };
+        /**
+         * RerunAsked
+         * @description What to change, which channels to see in how many stretches, and how long to wait for it.
+         */
+        RerunAsked: {
+            change: components["schemas"]["Change"];
+            /**
+             * Channels
+             * @default [
+             *       "force_n",
+             *       "force_command_n",
+             *       "valve_command",
+             *       "displacement_m",
+             *       "velocity_m_s",
+             *       "supply_pressure_pa"
+             *     ]
+             */
+            channels: string[];
+            /**
+             * Points
+             * @default 2000
+             */
+            points: number;
+            /**
+             * Wait S
+             * @default 10
+             */
+            wait_s: number;
+        };
+        /**
+         * RerunOut
+         * @description As recorded, and on the virtual rig without and with the change.
+         *
+         *     `lead_s` is how long before the first-out the re-run began; `text` says what the change did.
+         */
+        RerunOut: {
+            change: components["schemas"]["ValueChanged"];
+            changed: components["schemas"]["CourseOut"];
+            /** From The Beginning */
+            from_the_beginning: boolean;
+            /** Lead S */
+            lead_s: number;
+            /** Not Rerun */
+            not_rerun: string[];
+            recorded: components["schemas"]["CourseOut"];
+            /** Text */
+            text: string[];
+            unchanged: components["schemas"]["CourseOut"];
         };
         /**
          * ResumePreview
@@ -2711,6 +3446,27 @@ export interface components {
             runs: components["schemas"]["Leaving"][];
         };
         /**
+         * RevisionOut
+         * @description With its table. Number 0 is the one as shipped.
+         */
+        RevisionOut: {
+            /** Author */
+            author: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Detectors */
+            detectors: components["schemas"]["Detector"][];
+            /** Knowingly Weaker */
+            knowingly_weaker: string[];
+            /** Number */
+            number: number;
+            /** Why */
+            why: string;
+        };
+        /**
          * RevisionSummary
          * @description A revision in the list.
          */
@@ -2736,9 +3492,12 @@ export interface components {
         /**
          * RigStatus
          * @description Everything that is always on the screen.
+         *
+         *     `lease` is null where nobody is in command, `stop_url` where Stop has no path of its own.
          */
         RigStatus: {
             commands: components["schemas"]["CommandReasons"];
+            lease: components["schemas"]["LeaseOut"] | null;
             limits: components["schemas"]["Limits"];
             loop: components["schemas"]["LoopHealth"];
             mode: components["schemas"]["ModeWord"];
@@ -2752,6 +3511,8 @@ export interface components {
             };
             recorder: components["schemas"]["RecorderOut"];
             run: components["schemas"]["RunProgress"] | null;
+            /** Stop Url */
+            stop_url: string | null;
             storage: components["schemas"]["StorageState"];
             /** Trips */
             trips: components["schemas"]["Trip"][];
@@ -2951,8 +3712,12 @@ export interface components {
         /**
          * RunStart
          * @description Which test to run, and what to note of the run; without a revision, the newest.
+         *
+         *     Without `lease` it bears the epoch that the caller holds.
          */
         RunStart: {
+            /** Lease */
+            lease?: number | null;
             /**
              * Notes
              * @default
@@ -3179,6 +3944,23 @@ export interface components {
              * @constant
              */
             type: "subscribe";
+        };
+        /**
+         * TableRevision
+         * @description A table that was once in force: by whom, when and why.
+         */
+        TableRevision: {
+            /** Author */
+            author: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Number */
+            number: number;
+            /** Why */
+            why: string;
         };
         /**
          * TestAuthor
@@ -3567,6 +4349,18 @@ export interface components {
             role: components["schemas"]["RoleWord"];
         };
         /**
+         * ValueChanged
+         * @description A value by its path, as it was and as it is now.
+         */
+        ValueChanged: {
+            /** Before */
+            before: unknown;
+            /** Path */
+            path: string;
+            /** Value */
+            value: unknown;
+        };
+        /**
          * Valve
          * @description The valve command: its peak, the share of the test at its limit, and the longest stretch of that.
          */
@@ -3598,6 +4392,16 @@ export interface components {
             intact: boolean;
             /** Rows */
             rows: number;
+        };
+        /**
+         * Weakened
+         * @description A guarded detector that a table falls short of, and how.
+         */
+        Weakened: {
+            /** Detector */
+            detector: string;
+            /** Text */
+            text: string;
         };
         /**
          * Peaks
@@ -4090,6 +4894,85 @@ export interface operations {
             };
         };
     };
+    replayFirstOut: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["ReplayAsked"] | null;
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ReplayOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    rerunFirstOut: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RerunAsked"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RerunOut"] | components["schemas"]["Computing"];
+                };
+            };
+            /** @description Still being computed: ask the same again */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Computing"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getFirstOutSamples: {
         parameters: {
             query: {
@@ -4178,6 +5061,441 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["HistoryInfo"];
                 };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getInterlocks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["InterlocksOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    changeInterlocks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["InterlocksChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["InterlocksOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    checkInterlocks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["InterlocksText"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["InterlocksCheck"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getInterlocksDifference: {
+        parameters: {
+            query: {
+                from: number;
+                to: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["InterlocksDifference"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getLiveInterlocks: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LiveInterlocks"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listInterlocksRevisions: {
+        parameters: {
+            query?: {
+                /** @description the last number of the page before */
+                before?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TableRevision"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getInterlocksRevision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RevisionOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getLease: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LeaseOut"] | null;
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    takeLease: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LeaseWish"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LeaseOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    releaseLease: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    beatLease: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LeaseBeat"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    handOverLease: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["HandOver"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LeaseOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    requestLease: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["LeaseAsk"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LeaseRequestOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    declineLeaseRequest: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                request_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description A problem document (RFC 9457) */
             default: {
