@@ -60,7 +60,7 @@ def _say_made(target: Path, source: Source, made: Made, as_json: bool) -> Exit:
     text = f"{target}: {made.runs} runs{under_way}{samples}, {made.bytes / 1e6:,.1f} MB"
     console.print(text, markup=False)
     if source.database is None:
-        console.print("The database is on a server and not in here: back it up with pg_dump")
+        console.print("The database is on a server and not in here: back it up with pg_dump, now")
     return Exit.PASSED
 
 

@@ -19,6 +19,8 @@ from typing import IO, Any
 
 import pyarrow as pa
 
+from app.audit.head import HEAD_FILE
+from app.audit.spool import SPOOL_FILE
 from app.recording.whole_file import PREFIX, whole_file
 from app.settings import VERSION
 from app.storage.space import bytes_of
@@ -60,8 +62,11 @@ def back_up(source: Source, target: Path, progress: Progress = lambda share: Non
         if target.suffix == ".zst":  # samples are compressed already: this is for the database
             out = stack.enter_context(pa.CompressedOutputStream(_Kept(file), "zstd"))
         archive = stack.enter_context(tarfile.open(fileobj=out, mode="w|"))
+        audit = _of_the_audit(source.data_dir)
         with tempfile.TemporaryDirectory(dir=target.parent, prefix=PREFIX) as folder:
             runs = _database(source, archive, Path(folder))
+        for name, content in audit.items():
+            _add_bytes(archive, name, content)
         made = _Made(archive)
         folders = [source.data_dir / "runs" / str(run_id) for run_id in runs]
         sizes = [bytes_of(folder) for folder in folders]
@@ -117,6 +122,15 @@ def _found(folder: Path, patterns: Iterable[str]) -> list[Path]:
     return [path for pattern in patterns for path in sorted(folder.glob(pattern))]
 
 
+def _of_the_audit(data_dir: Path) -> dict[str, bytes]:
+    """The end of its chain, which may lag behind the database and not be ahead, and what waits for it.
+
+    So both are read before the database is.
+    """
+    paths = [data_dir / name for name in (SPOOL_FILE, HEAD_FILE)]
+    return {path.name: path.read_bytes() for path in paths if path.exists()}
+
+
 def _database(source: Source, archive: tarfile.TarFile, folder: Path) -> list[int]:
     """Put the database in, as it is now, with what the archive is; the runs that it knows."""
     runs_dir = source.data_dir / "runs"
@@ -160,7 +174,10 @@ def known_runs(database: Path) -> list[int]:
 
 
 def _add_text(archive: tarfile.TarFile, name: str, told: dict[str, Any]) -> None:
-    content = json.dumps(told, indent=2).encode()
+    _add_bytes(archive, name, json.dumps(told, indent=2).encode())
+
+
+def _add_bytes(archive: tarfile.TarFile, name: str, content: bytes) -> None:
     member = tarfile.TarInfo(name)
     member.size, member.mode = len(content), 0o644
     member.mtime = int(datetime.now(UTC).timestamp())

@@ -14,10 +14,13 @@ from typing import IO, Any
 
 import pyarrow as pa
 
+from app.audit.head import HEAD_FILE
+from app.audit.spool import SPOOL_FILE
 from app.storage.backup import DATABASE, FORMAT, MANIFEST, known_runs, snapshot
 
 _ZSTD = b"\x28\xb5\x2f\xfd"
-_MEMBER = re.compile(r"(backup\.json|forcerig\.sqlite|histories/[^/]+|runs/\d+/[^/]+)")
+_AUDIT = "|".join(re.escape(name) for name in (HEAD_FILE, SPOOL_FILE))
+_MEMBER = re.compile(rf"(backup\.json|forcerig\.sqlite|{_AUDIT}|histories/[^/]+|runs/\d+/[^/]+)")
 Progress = Callable[[float], None]
 
 

@@ -9,6 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from app.audit.entry import act
+from app.audit.record import Entry
+from app.audit.service import Audit
+from app.audit.spool import SPOOL_FILE, Spool
 from app.commands.backup import run_backup, run_restore
 from app.commands.output import Exit
 from app.db import Database
@@ -16,6 +20,7 @@ from app.recording.parts import part_paths, read_parts
 from app.storage import backup as module
 from app.storage.backup import Source, back_up, known_runs
 from app.storage.restore import NotABackup, restore
+from tests.unit.app.audit.entries import do, some, targets
 from tests.unit.app.recording.recordings import end, record, records_of, ticks_with_gaps
 from tests.unit.app.storage.stored_runs import FILES, REDUCED, database, enter, files
 
@@ -63,6 +68,34 @@ def test_all_comes_back(data: Path, name: str) -> None:
     assert known_runs(back / "forcerig.sqlite") == [1, 2]
     assert {path.name for path in back.iterdir()} == {"forcerig.sqlite", "histories", "runs"}
     assert not list(data.glob(".*"))
+
+
+def test_an_audit_that_comes_back_is_in_order(
+    data: Path, database: Database, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    audit = Audit(database, data)
+    audit.follow()
+    do(database, *some(2))
+    Spool(data / SPOOL_FILE).append([act(Entry("rig.stop", "rig"), "1")])
+    snapshot = module.snapshot
+
+    def while_the_console_runs(live: Path, copy: Path) -> None:
+        audit.open()
+        audit.close()
+        do(database, *some(1))
+        snapshot(live, copy)
+
+    monkeypatch.setattr(module, "snapshot", while_the_console_runs)
+    back_up(source(data), data / "b.tar")
+    restore(data / "b.tar", data / "back")
+    restored = Database(f"sqlite:///{data / 'back' / 'forcerig.sqlite'}")
+    again = Audit(restored, data / "back")
+    assert again.verify().intact
+    again.open()
+    again.close()
+    assert targets(restored) == ["test-0", "test-1", "rig", "test-0"]
+    assert again.verify().intact
+    restored.close()
 
 
 def test_a_part_that_grows_meanwhile_is_whole_up_to_a_batch(data: Path) -> None:
