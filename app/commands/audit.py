@@ -4,8 +4,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from rich.markup import escape
-from rich.table import Table
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.audit.schemas import AuditEntry
@@ -41,7 +39,8 @@ def list_entries(data: Path | None, sought: Sought, limit: int, as_json: bool) -
     if as_json:
         print_json([entry.model_dump(mode="json") for entry in found.entries])
     else:
-        text_console().print(_table(found.entries))
+        for entry in found.entries:
+            text_console().print(_line(entry), markup=False)
     return Exit.PASSED
 
 
@@ -65,10 +64,8 @@ def _refusal(detail: str) -> Refusal:
     return Refusal(Code.INVALID_REQUEST, detail)
 
 
-def _table(entries: list[AuditEntry]) -> Table:
-    table = Table("", "at", "who", "role", "action", "target", "outcome", "why")
-    for entry in entries:
-        at = entry.at.astimezone().isoformat(sep=" ", timespec="seconds")
-        told = (entry.who, entry.role, entry.action, entry.target, entry.outcome, entry.why or "")
-        table.add_row(str(entry.id), at, *(escape(text) for text in told))
-    return table
+def _line(entry: AuditEntry) -> str:
+    at = entry.at.astimezone().isoformat(sep=" ", timespec="seconds")
+    why = f" ({entry.why})" if entry.why else ""
+    who = f"{entry.who}, {entry.role}"
+    return f"{entry.id:>6}  {at}  {who}: {entry.action} {entry.target}, {entry.outcome}{why}"
