@@ -91,7 +91,7 @@ class Rig {
   private takeStatus(status: RigStatus): void {
     this.status = status;
     this.missedLately = this.misses.lately(status.loop.deadlines_missed, now_s());
-    const epoch = authority.follow(status.lease ?? null, now_s());
+    const epoch = authority.follow(status.lease, now_s());
     if (epoch !== null) this.link?.beat(epoch);
     this.spans = Object.fromEntries(SPANS.map((channel) => [channel, recentSpan(channel, SPAN_S)]));
     this.note({

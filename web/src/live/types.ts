@@ -6,11 +6,11 @@ type Schemas = components["schemas"];
 
 export type Mode = Schemas["ModeWord"];
 export type RigStatus = Schemas["RigStatus"] & {
-  readonly lease?: Lease | null;
   readonly chain?: { readonly closed: boolean };
-  readonly stop_url?: string;
   readonly injected?: readonly string[];
 };
+/** Who is in command. */
+export type Lease = Schemas["LeaseOut"];
 export type Trip = Schemas["Trip"];
 export type LoopHealth = Schemas["LoopHealth"];
 export type RigEvent = Schemas["EventOut"];
@@ -41,15 +41,3 @@ export type Acquisition = Schemas["AcquisitionRows"];
 export type Permissive = Schemas["Permissive"];
 export type ResumePreview = Schemas["ResumePreview"];
 export type PredictedBands = Schemas["PredictedBands"];
-
-/** Who is in command. */
-export interface Lease {
-  readonly epoch: number;
-  readonly holder: string;
-  readonly holder_id: string;
-  readonly role: string;
-  readonly since: string;
-  readonly reason: string;
-  readonly expires_in_s: number;
-  readonly requests: readonly { readonly id: number; readonly name: string; readonly reason: string; readonly since: string }[];
-}

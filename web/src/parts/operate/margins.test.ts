@@ -5,6 +5,7 @@ import { marginRows } from "./margins";
 const margin = (detector: string, change: Partial<Margin> = {}): Margin => ({
   detector,
   quantity: "force_n",
+  form: "value",
   unit: "N",
   threshold: 50e3,
   extreme: 33e3,
