@@ -7,10 +7,10 @@ from fastapi import APIRouter, Query
 from app.access.dependencies import Engineer, Viewer
 from app.dependencies import AuthorityService, InterlocksService, LiveInterlocksTable
 from app.interlocks import shown
+from app.interlocks.check_schemas import InterlocksCheck
 from app.interlocks.record import interlocks_from
 from app.interlocks.schemas import (
     InterlocksChange,
-    InterlocksCheck,
     InterlocksDifference,
     InterlocksOut,
     InterlocksText,

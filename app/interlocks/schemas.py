@@ -9,7 +9,6 @@ from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 from app.db import NO_NUL
 from app.definitions.difference import ChangeKind
 from app.interlocks.detector import Detector
-from app.problems import FaultOut
 
 Number = Annotated[int, Field(ge=0, le=2**31 - 1)]
 Why = Annotated[
@@ -78,22 +77,6 @@ class InterlocksDifference(BaseModel):
     to: int | None
     detectors: list[DetectorChangeOut]
     reordered: bool
-
-
-class Weakened(BaseModel):
-    """A guarded detector that a table falls short of, and how."""
-
-    detector: str
-    text: str
-
-
-class InterlocksCheck(BaseModel):
-    """Whether a table could be put in force, and what would change. Nothing was adopted."""
-
-    valid: bool
-    errors: list[FaultOut]
-    weakened: list[Weakened]
-    difference: InterlocksDifference | None
 
 
 class DetectorState(StrEnum):

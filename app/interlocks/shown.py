@@ -3,18 +3,17 @@
 from typing import Any
 
 from app.errors import Refusal
+from app.interlocks.check_schemas import InterlocksCheck, Weakened
 from app.interlocks.difference import difference
 from app.interlocks.models import InterlocksRevision
 from app.interlocks.safeguards import GUARDED, adoptable, shortfalls
 from app.interlocks.schemas import (
     DetectorChangeOut,
-    InterlocksCheck,
     InterlocksDifference,
     InterlocksOut,
     InterlocksText,
     RevisionOut,
     TableRevision,
-    Weakened,
 )
 from app.interlocks.service import Revision
 from app.interlocks.table import Interlocks
