@@ -69,7 +69,7 @@ class Lived(Virtual):
 
     def kept(self) -> tuple[Account, BoxSamples]:
         """The last first-out, once its box is full."""
-        self.advance(2 * SECOND + 1)
+        self.advance(4 * SECOND)  # some take a while to trip
         self.watched.look()
         row = self.watched.kept[-1]
         samples = samples_of(self._folder, row.id)

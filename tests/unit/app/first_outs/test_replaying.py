@@ -1,4 +1,4 @@
-"""The loop's own check over a black box trips exactly as the loop did; with a value changed it says what would have."""
+"""The loop's own check over a black box trips as the loop did; with a value changed it says what would have."""
 
 from collections.abc import Callable
 from pathlib import Path
