@@ -29,7 +29,7 @@ from app.settings import Settings
 from rtcore.memory.segment import attach_block, loop_is_running
 
 PATIENCE_S = 110.0  # a cold start compiles the loop's kernels
-_SERVE = "from app.main import serve; serve('127.0.0.1', 0, None)"
+SERVE = "from app.main import serve; serve('127.0.0.1', 0, None)"
 
 
 def wait_for(condition: Callable[[], Any], what: str, patience_s: float = PATIENCE_S) -> Any:
@@ -71,7 +71,9 @@ class ConsoleProcess:
         database_url: str | None = None,
         interlocks: Path | None = None,
         certificate: tuple[Path, Path] | None = None,
+        program: str = SERVE,
     ) -> None:
+        self._program = program
         self.data = folder / "data"
         self.block = block_path(self.data)
         self._log = folder / "console.log"
@@ -99,7 +101,7 @@ class ConsoleProcess:
         already_said = len(self.said())
         with self._log.open("ab") as log:
             self._process = subprocess.Popen(
-                [sys.executable, "-c", _SERVE], env=self._environment, stdout=log, stderr=log
+                [sys.executable, "-c", self._program], env=self._environment, stdout=log, stderr=log
             )
         pattern = re.compile(r"forcerig console: (\S+)/\n")
         found = wait_for(

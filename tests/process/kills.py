@@ -33,7 +33,7 @@ from app.db import Database, migrations_folder
 from rtcore.memory.rings import telemetry_reader
 from rtcore.memory.segment import BlockError, attach_block, loop_is_running
 from rtcore.modes import Mode
-from tests.console_process import _SERVE, ConsoleProcess, wait_for
+from tests.console_process import SERVE, ConsoleProcess, wait_for
 
 RUN_S = 1.5
 STARTING_S = 4.0
@@ -92,7 +92,7 @@ class Victim(ConsoleProcess):
         """Start it, and wait for nothing."""
         with self._log.open("ab") as log:
             self._process = subprocess.Popen(
-                [sys.executable, "-c", _SERVE], env=self._environment, stdout=log, stderr=log
+                [sys.executable, "-c", SERVE], env=self._environment, stdout=log, stderr=log
             )
 
     def kill_now(self) -> None:
