@@ -69,7 +69,7 @@ FAULTS = {
         "-",
         1.0,
         1000.0,
-        50.0,
+        500.0,
         "The load cell's screen is torn: its noise grows.",
     ),
     Fault.LOAD_CELL_NAN: _present(
@@ -81,7 +81,7 @@ FAULTS = {
         "N/s",
         -20e3,
         20e3,
-        500.0,
+        2000.0,
         "The load cell's zero wanders away at a constant rate.",
     ),
     Fault.VALVE_HARD_OVER: FaultKind(
