@@ -125,6 +125,7 @@ def _status(api: httpx2.Client) -> dict[str, Any]:
 
 def _make_ready(api: httpx2.Client) -> None:
     _until(lambda: _status(api)["loop"]["alive"], "loop")
+    api.post("/lease", json={"reason": "Benchmark", "ttl_s": 600}).raise_for_status()
     for command in ("reset", "pressurise"):
         api.post("/rig/commands", json={"command": command}).raise_for_status()
     _until(lambda: _status(api)["commands"]["start"] is None, "pressure")

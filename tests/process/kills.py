@@ -206,6 +206,7 @@ class Campaign:
         self._settle()
 
         def ready() -> bool:
+            self.console.take_command()
             mode = self.console.mode()
             if mode == "tripped":
                 self.console.command("reset")
