@@ -2,13 +2,15 @@
 
 from dataclasses import dataclass
 
-from app.access import repository
+from app.access import entries, repository
 from app.access.book import LONGEST, Book
 from app.access.keys import digest, new_key
 from app.access.models import SignedIn
 from app.access.principal import Principal, Role
 from app.access.refusals import unknown_session
 from app.access.schemas import SessionOut
+from app.audit.actor import Actor, acting
+from app.audit.record import record
 from app.errors import Refusal
 
 
@@ -18,19 +20,22 @@ class Sessions:
 
     _book: Book
 
-    def begin(self, user_id: int) -> str:
+    def begin(self, user_id: int, how: str = "password") -> str:
         """A new session of a user; returns its key, for the cookie."""
         key, now = new_key(), self._book.now()
         with self._book.writing() as session:
-            session.add(
-                SignedIn(
-                    user_id=user_id,
-                    digest=digest(key),
-                    csrf=new_key(),
-                    created_at=now,
-                    last_seen_at=now,
-                )
+            row = SignedIn(
+                user_id=user_id,
+                digest=digest(key),
+                csrf=new_key(),
+                created_at=now,
+                last_seen_at=now,
             )
+            session.add(row)
+            session.flush()
+            user = row.user
+            with acting(Actor(user.name, user.role, f"session:{row.id}")):
+                record(session, entries.session_begun(user, how))
         return key
 
     def by_link(self, key: str) -> str | None:
@@ -38,7 +43,7 @@ class Sessions:
         with self._book.writing() as session:
             link = repository.take_link(session, digest(key))
             good = link is not None and self._book.now() < link.expires_at
-        return self.begin(link.user_id) if link is not None and good else None
+        return self.begin(link.user_id, "link") if link is not None and good else None
 
     def of(self, who: Principal) -> list[SessionOut]:
         """The sessions that somebody may see, the newest first."""
@@ -52,6 +57,7 @@ class Sessions:
             return unknown_session(session_id)
         with self._book.writing() as session:
             repository.end_session(session, session_id)
+            record(session, entries.session_ended(found))
         return None
 
     def _shown(self, one: SignedIn, who: Principal) -> SessionOut:

@@ -2,7 +2,7 @@
 
 from anyio.to_thread import run_sync
 
-from app.access import repository
+from app.access import entries, repository
 from app.access.attempts import Attempts
 from app.access.book import Book
 from app.access.models import SignedIn
@@ -16,6 +16,7 @@ from app.access.refusals import (
 )
 from app.access.schemas import Me, PasswordChange, RoleWord, SignIn
 from app.access.sessions import Sessions
+from app.audit.record import note, record
 from app.errors import Refusal
 
 
@@ -41,6 +42,7 @@ class SigningIn:
         if isinstance(right, Refusal):
             return right
         if user is None or not right:
+            note(entries.sign_in_refused(user, address))
             return SIGN_IN_FAILED
         self._attempts.succeeded(asked.name, address)
         return await run_sync(self._sessions.begin, user.id)
@@ -102,7 +104,9 @@ class SigningIn:
             user = repository.user(session, asking.user_id)
             if user is None or user.password_hash != before:  # set meanwhile, by an admin
                 return WRONG_PASSWORD
+            known = entries.state_of(user)
             user.password_hash = hashed
+            record(session, entries.changed(user, known, new_password=True))
             repository.end_sessions(session, user.id, but=asking.id)
             repository.drop_links(session, user.id)
         return None

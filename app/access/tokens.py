@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from datetime import timedelta
 
-from app.access import repository
+from app.access import entries, repository
 from app.access.book import Book
 from app.access.keys import TOKEN_PREFIX, digest, new_key
 from app.access.models import ApiToken
@@ -11,6 +11,7 @@ from app.access.principal import Principal, Role, lacking
 from app.access.refusals import ONLY_SIGNED_IN, beyond_owner, unknown_token, unknown_user
 from app.access.schemas import TokenCreate, TokenMade, TokenOut
 from app.access.scopes import Scope, role_of
+from app.audit.record import record
 from app.errors import Refusal
 
 
@@ -58,6 +59,8 @@ class Tokens:
             )
             session.add(row)
             owner = user.name
+            session.flush()
+            record(session, entries.token_made(row, owner))
         return TokenMade(token=key, **_plain(row, owner).model_dump())
 
     def revoke(self, token_id: int, who: Principal | None = None) -> Refusal | None:
@@ -68,6 +71,7 @@ class Tokens:
             if row is None or unseen or row.revoked_at is not None:
                 return unknown_token(token_id)
             row.revoked_at = self._book.now()
+            record(session, entries.token_revoked(row))
             return None
 
     def _shown(self, token: ApiToken) -> TokenOut:

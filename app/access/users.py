@@ -6,7 +6,7 @@ from datetime import datetime, timedelta
 from sqlalchemy.exc import IntegrityError
 from sqlalchemy.orm import Session
 
-from app.access import repository
+from app.access import entries, repository
 from app.access.book import Book
 from app.access.keys import digest, new_key
 from app.access.models import SignInLink, User
@@ -14,6 +14,7 @@ from app.access.passwords import Passwords, weak
 from app.access.principal import Role
 from app.access.refusals import DISABLED, LAST_ADMIN, OWN_ACCOUNT, unknown_user, user_exists
 from app.access.schemas import RoleWord, UserChange, UserCreate, UserOut
+from app.audit.record import record
 from app.errors import Refusal
 
 FIRST_ADMIN = "admin"
@@ -61,6 +62,7 @@ class Users:
             with self._book.writing() as session:
                 user = self._new(asked.name, Role.of(asked.role), hashed)
                 session.add(user)
+                record(session, entries.added(user))
         except IntegrityError:
             return user_exists(asked.name)
         return self.get(user.id)
@@ -77,12 +79,14 @@ class Users:
             refusal = _keeps_an_admin(session, user, by) if _takes_rights(user, asked) else None
             if refusal is not None:
                 return refusal
+            before = entries.state_of(user)
             user.role = user.role if asked.role is None else asked.role.value
             user.disabled = user.disabled if asked.disabled is None else asked.disabled
             user.password_hash = hashed or user.password_hash
             if hashed is not None or user.disabled:
                 repository.end_sessions(session, user_id)
                 repository.drop_links(session, user_id)
+            record(session, entries.changed(user, before, new_password=hashed is not None))
         return self.get(user_id)
 
     def remove(self, user_id: int, by: int | None = None) -> Refusal | None:
@@ -93,6 +97,7 @@ class Users:
                 return unknown_user(user_id)
             refusal = _keeps_an_admin(session, user, by)
             if refusal is None:
+                record(session, entries.removed(user))
                 session.delete(user)
             return refusal
 
@@ -121,8 +126,10 @@ class Users:
 
     def _ensure_admin(self, session: Session) -> None:
         if not repository.users(session):
-            session.add(self._new(FIRST_ADMIN, Role.ADMIN, None))
+            first = self._new(FIRST_ADMIN, Role.ADMIN, None)
+            session.add(first)
             session.flush()
+            record(session, entries.added(first))
 
     def _hash_for(self, user_id: int, password: str | None) -> str | Refusal | None:
         if password is None:
@@ -145,6 +152,7 @@ class Users:
         key = new_key()
         made = MadeLink(LINK_PATH + key, self._book.now() + LINK_LIFE)
         repository.drop_links(session, user.id)
+        record(session, entries.linked(user))
         session.add(SignInLink(user_id=user.id, digest=digest(key), expires_at=made.expires_at))
         return made
 
