@@ -1,8 +1,9 @@
 // Requests to /api/v1/first-outs.
 
-import { request } from "../api";
-import type { RunSamples } from "../types";
-import type { FirstOutDetail, FirstOutPage } from "./types";
+import { post, request } from "../api";
+import type { Json } from "../tests/tree";
+import type { Computing, RunSamples } from "../types";
+import type { FirstOutDetail, FirstOutPage, Replayed, Rerun } from "./types";
 
 const JSON_HEADERS = { "Content-Type": "application/json", Accept: "application/json" };
 
@@ -35,3 +36,21 @@ export const annotateFirstOut = (
   request(`first-outs/${id}`, { method: "PATCH", headers: JSON_HEADERS, body: JSON.stringify(changes) });
 
 export const firstOutDataUrl = (id: number): string => `/api/v1/first-outs/${id}/data.parquet`;
+
+/** Over the recorded ticks with values of detectors changed, each by a path such as `force_error.threshold`. */
+export const replayFirstOut = (
+  id: number,
+  interlocks: Readonly<Record<string, unknown>>,
+  signal: AbortSignal,
+): Promise<Replayed> => request(`first-outs/${id}/replay`, { ...post({ interlocks }), signal });
+
+export interface RerunAsked {
+  readonly change: { readonly path: string; readonly value: Json };
+  readonly channels: readonly string[];
+  readonly points: number;
+  readonly wait_s: number;
+}
+
+/** The same once more on the virtual rig, without and with the change; or how far that is. */
+export const rerunFirstOut = (id: number, asked: RerunAsked, signal: AbortSignal): Promise<Rerun | Computing> =>
+  request(`first-outs/${id}/rerun`, { ...post(asked), signal });

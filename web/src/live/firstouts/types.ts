@@ -1,5 +1,9 @@
 // First-outs as the server says them. Times are seconds from the first-out.
 
+import type { Detector } from "../interlocks/types";
+import type { Json } from "../tests/tree";
+import type { RunSamples } from "../types";
+
 export interface FirstOutSummary {
   readonly id: number;
   readonly tripped_at: string;
@@ -60,18 +64,48 @@ export interface FirstOutDetail extends FirstOutSummary {
   readonly trips: readonly TripKept[];
   readonly events: readonly EventKept[];
   readonly peaks: readonly PeakKept[];
-  readonly settings: { readonly interlocks: { readonly detectors: readonly KeptDetector[] } | null };
+  readonly settings: KeptSettings;
   readonly injected: Readonly<Record<string, number>>;
 }
 
-/** What of a kept detector is needed here. */
-export interface KeptDetector {
-  readonly name: string;
-  readonly quantity: string;
-  readonly form?: string;
-  readonly comparison: string;
-  readonly threshold: number;
-  readonly low?: number | null;
-  readonly enabled?: boolean;
-  readonly persistence_s?: number;
+/** A detector that the recording cannot tell of; its recorded trips stand. */
+export interface NotReplayed {
+  readonly detector: string;
+  readonly why: string;
+}
+
+/** What trips over the recorded ticks, as it was and with values changed. */
+export interface Replayed {
+  readonly recorded: readonly TripKept[];
+  readonly unchanged: readonly TripKept[];
+  readonly changed: readonly TripKept[];
+  readonly first_out: TripKept | null;
+  readonly reproduces: boolean;
+  readonly not_replayed: readonly NotReplayed[];
+  readonly text: string;
+}
+
+/** What happened, or would have. */
+export interface Course {
+  readonly trips: readonly TripKept[];
+  readonly first_out: TripKept | null;
+  readonly peaks: readonly PeakKept[];
+  readonly samples: RunSamples | null;
+}
+
+/** As recorded, and on the virtual rig without and with one value changed. */
+export interface Rerun {
+  readonly recorded: Course;
+  readonly unchanged: Course;
+  readonly changed: Course;
+  readonly lead_s: number;
+  readonly not_rerun: readonly string[];
+  readonly text: readonly string[];
+}
+
+/** What was in force, as it was kept. */
+export interface KeptSettings {
+  readonly controller: { readonly [key: string]: Json };
+  readonly rig: { readonly [key: string]: Json };
+  readonly interlocks: { readonly detectors: readonly Detector[] } | null;
 }

@@ -1,5 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { afterFirst, chartsFor, inOrderOfTripping, limitsByChart, timeText } from "./words";
+import { aDetector } from "../interlocks/aDetector";
+import type { TripKept } from "./types";
+import { afterFirst, chartsFor, compared, inOrderOfTripping, limitsByChart, timeText } from "./words";
 
 const plain = (text: string): string => text.replaceAll("\u00a0", " ");
 
@@ -32,11 +34,11 @@ describe("a first-out in words", () => {
 
   it("draws the limits where their quantities are drawn, as they are", () => {
     const limits = limitsByChart([
-      { name: "force", quantity: "force_n", comparison: "magnitude_above", threshold: 55e3 },
-      { name: "ahead", quantity: "force_n", form: "look_ahead", comparison: "above", threshold: 1 },
-      { name: "off", quantity: "force_n", comparison: "above", threshold: 2, enabled: false },
-      { name: "band", quantity: "displacement_m", comparison: "outside", threshold: 0.03, low: -0.02 },
-      { name: "cell", quantity: "load_cell", comparison: "above", threshold: 0.5 },
+      aDetector({ quantity: "force_n", threshold: 55e3 }),
+      aDetector({ quantity: "force_n", form: "look_ahead", comparison: "above", threshold: 1 }),
+      aDetector({ quantity: "force_n", comparison: "above", threshold: 2, enabled: false }),
+      aDetector({ quantity: "displacement_m", comparison: "outside", threshold: 0.03, low: -0.02 }),
+      aDetector({ quantity: "load_cell", comparison: "above", threshold: 0.5 }),
     ]);
     expect(limits).toEqual({ force: [-55e3, 55e3], displacement: [0.03, -0.02] });
   });
@@ -44,5 +46,15 @@ describe("a first-out in words", () => {
   it("shows the chart of what tripped first", () => {
     expect(chartsFor({ quantity: "supply_pressure_pa" })).toEqual(["pressures", "force", "displacement"]);
     expect(chartsFor({ quantity: "lvt" })).toEqual(["force", "displacement", "valve"]);
+  });
+
+  it("sets what would have tripped beside what did, the earliest on top", () => {
+    const trip = (detector: string, time_s: number): TripKept => ({ detector, time_s }) as TripKept;
+    const rows = compared([trip("a", 0), trip("b", 0.5)], [trip("a", 0.2), trip("c", -0.1)]);
+    expect(rows.map(({ detector, recorded, changed }) => [detector, recorded?.time_s, changed?.time_s])).toEqual([
+      ["c", undefined, -0.1],
+      ["a", 0, 0.2],
+      ["b", 0.5, undefined],
+    ]);
   });
 });

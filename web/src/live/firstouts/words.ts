@@ -1,7 +1,8 @@
 // First-outs in words. Pure.
 
 import { count, NOTHING } from "../../units";
-import type { FirstOutDetail, KeptDetector } from "./types";
+import type { Detector } from "../interlocks/types";
+import type { FirstOutDetail, TripKept } from "./types";
 
 interface Tripped {
   readonly tick: number;
@@ -48,14 +49,16 @@ const CHARTED: Readonly<Record<string, string>> = {
   pressure_2_pa: "pressures",
 };
 
+type Drawn = Pick<Detector, "quantity" | "form" | "comparison" | "threshold" | "low" | "enabled">;
+
 /** The limits to draw on each chart: those of the detectors that judge just what is drawn there. */
-export function limitsByChart(detectors: readonly KeptDetector[]): Readonly<Record<string, readonly number[]>> {
+export function limitsByChart(detectors: readonly Drawn[]): Readonly<Record<string, readonly number[]>> {
   const limits: Record<string, number[]> = {};
-  for (const { quantity, form = "value", comparison, threshold, low, enabled = true } of detectors) {
+  for (const { quantity, form, comparison, threshold, low, enabled } of detectors) {
     const chart = CHARTED[quantity];
     if (chart === undefined || form !== "value" || !enabled) continue;
     const both = comparison === "magnitude_above" ? [-threshold, threshold] : [threshold];
-    limits[chart] = [...(limits[chart] ?? []), ...both, ...(comparison === "outside" && low != null ? [low] : [])];
+    limits[chart] = [...(limits[chart] ?? []), ...both, ...(comparison === "outside" && low !== null ? [low] : [])];
   }
   return limits;
 }
@@ -64,4 +67,25 @@ export function limitsByChart(detectors: readonly KeptDetector[]): Readonly<Reco
 export function chartsFor({ quantity }: Pick<FirstOutDetail, "quantity">): readonly string[] {
   const own = CHARTED[quantity] ?? "force";
   return [...new Set([own, "force", "displacement", "valve"])].slice(0, 3);
+}
+
+/** One detector over the recording: when it tripped, and when it would have. */
+export interface Compared {
+  readonly detector: string;
+  readonly recorded: TripKept | null;
+  readonly changed: TripKept | null;
+}
+
+/** The trips of both, detector by detector, the earliest on top. */
+export function compared(recorded: readonly TripKept[], changed: readonly TripKept[]): readonly Compared[] {
+  const find = (trips: readonly TripKept[], name: string): TripKept | null =>
+    trips.find(({ detector }) => detector === name) ?? null;
+  const names = [...new Set([...recorded, ...changed].map(({ detector }) => detector))];
+  const rows = names.map((detector) => ({
+    detector,
+    recorded: find(recorded, detector),
+    changed: find(changed, detector),
+  }));
+  const at = ({ recorded: was, changed: is }: Compared): number => Math.min(was?.time_s ?? Infinity, is?.time_s ?? Infinity);
+  return rows.sort((a, b) => at(a) - at(b));
 }
