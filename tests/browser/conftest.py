@@ -3,6 +3,7 @@
 import os
 import shutil
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -48,20 +49,20 @@ def browser() -> Iterator[Browser]:
         browser.close()
 
 
-@pytest.fixture
-def page(browser: Browser, console: ConsoleProcess) -> Iterator[Page]:
-    """A page of the console. The test fails where the page had an error or asked another site."""
+@contextmanager
+def watched(browser: Browser, console: ConsoleProcess, *expected: str) -> Iterator[Page]:
+    """A page in a browser of its own. Fails where it had another error than expected, or asked another site."""
     context = browser.new_context(viewport={"width": 1280, "height": 720})
-    context.request.get(console.url + console.new_link())
     page = context.new_page()
     complaints: list[str] = []
+    own = (console.url, console.status()["stop_url"], "data:", "blob:")
 
     def heard(message: ConsoleMessage) -> None:
-        if message.type == "error" and REFUSED not in message.text:
+        if message.type == "error" and not any(word in message.text for word in expected):
             complaints.append(message.text)
 
     def asked(request: Request) -> None:
-        if not request.url.startswith((console.url, "data:", "blob:")):
+        if not request.url.startswith(own):
             complaints.append(f"asked {request.url}")
 
     page.on("console", heard)
@@ -70,3 +71,11 @@ def page(browser: Browser, console: ConsoleProcess) -> Iterator[Page]:
     yield page
     context.close()
     assert complaints == []
+
+
+@pytest.fixture
+def page(browser: Browser, console: ConsoleProcess) -> Iterator[Page]:
+    """A page of the console, of an admin who is signed in."""
+    with watched(browser, console, REFUSED) as page:
+        page.context.request.get(console.url + console.new_link())
+        yield page

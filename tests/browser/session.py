@@ -20,11 +20,24 @@ def choose(page: Page, test_id: str) -> None:
     expect(page.get_by_test_id("prediction-verdict")).to_be_visible()
 
 
+def take_command(page: Page) -> None:
+    """Be in command on this page, over whoever is."""
+    page.get_by_test_id("in-command").click()
+    expect(page.get_by_test_id("take").or_(page.get_by_test_id("take-over"))).to_be_visible()
+    if page.get_by_test_id("take").is_visible():
+        page.get_by_test_id("take").click()
+    else:
+        page.get_by_test_id("ask-reason").fill("The tests")
+        page.get_by_test_id("take-over").click()
+    expect(page.get_by_test_id("holder")).to_have_text("You")
+
+
 def make_ready(page: Page, console: ConsoleProcess) -> None:
-    """Reset and pressurise by the buttons, from a latched rig."""
+    """Take command, reset and pressurise by the buttons, from a latched rig."""
     assert console.command("shutdown").is_success
     page.goto(console.url)
     is_at(page, "tripped")
+    take_command(page)
     page.get_by_test_id("cmd-reset").click()
     is_at(page, "off")
     page.get_by_test_id("cmd-pressurise").click()

@@ -6,7 +6,7 @@ import signal
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.session import HARMONIC, choose, is_at, make_ready, predict
+from tests.browser.session import HARMONIC, choose, is_at, make_ready, predict, take_command
 from tests.console_process import ConsoleProcess, wait_for
 
 pytestmark = [pytest.mark.browser, pytest.mark.process, pytest.mark.slow]
@@ -65,9 +65,11 @@ def test_a_hold_shows_what_resume_will_do(page: Page, console: ConsoleProcess) -
     test_id = made.json()["id"]
     predict(console, test_id)
     make_ready(page, console)
+    console.take_command()
     start = {"test_id": test_id, "override_reason": "It is to be held"}
     assert console.http.post("/runs", json=start).status_code == 201
     is_at(page, "running")
+    take_command(page)
     page.get_by_test_id("cmd-hold").click()
     is_at(page, "holding")
     preview = page.get_by_test_id("resume-preview")

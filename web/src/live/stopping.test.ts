@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from "vitest";
 import { Problem } from "./api";
-import { deliver } from "./stopping";
+import { deliver, underName } from "./stopping";
 
 const never = (): Promise<never> => new Promise(() => {});
 const refused = new Problem("You may not.", "not_allowed", 403);
@@ -29,5 +29,12 @@ describe("deliver", () => {
     const dead = vi.fn().mockRejectedValue(new TypeError("Failed to fetch"));
     expect(await deliver([async () => Promise.reject(refused), dead])).toBe(refused);
     expect(dead).toHaveBeenCalledTimes(3);
+  });
+});
+
+describe("underName", () => {
+  it("keeps port and path, and takes the name that the page has", () => {
+    expect(underName("http://127.0.0.1:8001/stop", "localhost")).toBe("http://localhost:8001/stop");
+    expect(underName("https://0.0.0.0:8001/stop", "rig.lab")).toBe("https://rig.lab:8001/stop");
   });
 });

@@ -34,7 +34,16 @@ async function persistently(way: Way): Promise<void> {
 export function stopWays(stopUrl: string | null): readonly Way[] {
   const options = (): RequestInit => ({ keepalive: true, signal: AbortSignal.timeout(WAIT_MS) });
   const own: Way = () => sendCommand("stop", undefined, options());
-  return stopUrl === null ? [own] : [own, () => byPathOfItsOwn(stopUrl, options())];
+  if (stopUrl === null) return [own];
+  const url = underName(stopUrl, window.location.hostname);
+  return [own, () => byPathOfItsOwn(url, options())];
+}
+
+/** An address of the same machine under the name by which this page knows it: cookies go with the name. */
+export function underName(url: string, name: string): string {
+  const address = new URL(url);
+  address.hostname = name;
+  return address.href;
 }
 
 async function byPathOfItsOwn(url: string, options: RequestInit): Promise<void> {
