@@ -10,6 +10,7 @@ from app.audit.service import Audit
 from app.authority.service import Authority
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
+from app.drills.service import Drills
 from app.first_outs.again import Again
 from app.first_outs.service import FirstOuts
 from app.histories.store import Store
@@ -76,6 +77,10 @@ def _first_outs_again(this: ThisConsole) -> Again:
     return this.first_outs_again
 
 
+def _drills(this: ThisConsole) -> Drills:
+    return this.drills
+
+
 def _runs(this: ThisConsole) -> Runs:
     return this.runs
 
@@ -126,6 +131,7 @@ CatalogueService = Annotated[Catalogue, Depends(_catalogue)]
 LibraryService = Annotated[Library, Depends(_library)]
 FirstOutsService = Annotated[FirstOuts, Depends(_first_outs)]
 FirstOutsAgain = Annotated[Again, Depends(_first_outs_again)]
+DrillsService = Annotated[Drills, Depends(_drills)]
 RunsService = Annotated[Runs, Depends(_runs)]
 ResultsService = Annotated[Results, Depends(_results)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]

@@ -42,6 +42,7 @@ class Code(StrEnum):
     HISTORY_EXISTS = "history_exists"
     UNKNOWN_RUN = "unknown_run"
     UNKNOWN_FIRST_OUT = "unknown_first_out"
+    UNKNOWN_DRILL = "unknown_drill"
     UNKNOWN_CHANNEL = "unknown_channel"
     INVALID_TEST = "invalid_test"
     RUN_UNDER_WAY = "run_under_way"

@@ -26,6 +26,7 @@ from app.catalogue.router import router as tests_router
 from app.catalogue.texts_router import router as texts_router
 from app.described import Described
 from app.docs_page import docs_page
+from app.drills.router import router as drills_router
 from app.errors import Refusal
 from app.first_outs.again_router import router as first_outs_again_router
 from app.first_outs.router import router as first_outs_router
@@ -125,6 +126,7 @@ def create_app(
         predicted_router,
         storage_router,
         first_outs_router,
+        drills_router,
         first_outs_again_router,
         audit_router,
         system_router,

@@ -51,6 +51,7 @@ STATUS: Mapping[Code, int] = {
     Code.HISTORY_EXISTS: 409,
     Code.UNKNOWN_RUN: 404,
     Code.UNKNOWN_FIRST_OUT: 404,
+    Code.UNKNOWN_DRILL: 404,
     Code.UNKNOWN_CHANNEL: 422,
     Code.INVALID_TEST: 422,
     Code.RUN_UNDER_WAY: 409,

@@ -48,6 +48,11 @@ class Settings(BaseSettings):
         return self.data_dir.resolve() / "first-outs"
 
     @property
+    def drills_dir(self) -> Path:
+        """Where the samples of the drills are kept, a file each."""
+        return self.data_dir.resolve() / "drills"
+
+    @property
     def histories_dir(self) -> Path:
         """Where time histories are kept, a folder each."""
         return self.data_dir.resolve() / "histories"

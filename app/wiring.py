@@ -17,6 +17,8 @@ from app.catalogue.written import Reader
 from app.controller.record import to_record as gains_record
 from app.db import Database
 from app.definitions.limits import RIG
+from app.drills.scoring import Limits
+from app.drills.service import Drills
 from app.first_outs.again import Again
 from app.first_outs.book import Book
 from app.first_outs.box import InForce
@@ -132,6 +134,11 @@ class Console:
             self.starter.one_at_a_time,
             self._turn_to,
         )
+        self.drills = Drills(
+            *(self.database, settings.drills_dir, self.link, self.authority.check),
+            names=lambda: [d.name for d in self.interlocks.in_force.interlocks.detectors],
+            limits=Limits.of(presets.rig),
+        )
         self.live_interlocks = LiveTable(self.link, presets.interlocks)
         self.broadcaster = Broadcaster(lambda: self.link.life, self.status.read)
         self.system = System(
@@ -159,6 +166,7 @@ class Console:
         close_orphans(self.settings.runs_dir, self._clerk, life.name if life else None)
         self.recorder.start()
         self._keeper.start()
+        self.drills.open()
         self.predictions.warm_up()
         self.storage.retention.finish_removing()
         self._watcher.start()
@@ -168,6 +176,7 @@ class Console:
         self.predictions.close()
         self._reruns.close()
         self._watcher.close()
+        self.drills.close()
         self._lease_keeper.close()
         self.link.take_load_off()
         self.link.end_loop()

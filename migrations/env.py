@@ -5,6 +5,7 @@ from alembic import context
 import app.access.models
 import app.audit.models
 import app.catalogue.models
+import app.drills.models
 import app.first_outs.models
 import app.interlocks.models
 import app.runs.models

@@ -68,7 +68,8 @@ class Seen:
 
     def tripped(self) -> int | None:
         """The first tick in which the rig was tripped: valve at null, supply off."""
-        found = self.records["tick"][self.records["mode"] == Mode.TRIPPED]
+        modes = self.events[self.events["kind"] == EventKind.MODE]
+        found = modes["tick"][modes["code"] == Mode.TRIPPED]
         return int(found[0]) if len(found) else None
 
 

@@ -13,6 +13,7 @@ from rtcore.memory.rings import Batch, RingReader, event_reader, telemetry_reade
 from rtcore.memory.segment import Block
 from rtcore.memory.snapshot import read_snapshot
 from rtcore.modes import Mode
+from rtcore.rig.faults import Fault
 
 __all__ = ["SILENT_S", "Batch", "Life", "RingReader"]
 
@@ -69,6 +70,11 @@ class Life:
     def lease(self) -> int:
         """The epoch that the loop obeys."""
         return int(self.block.fields["lease"])
+
+    def injected(self) -> dict[Fault, float]:
+        """The faults that the simulated rig has now, with their amounts."""
+        amounts = self.block.fields["injected"]
+        return {fault: float(amounts[fault]) for fault in Fault if amounts[fault] != 0.0}
 
     def has_recorded(self, position: int) -> None:
         """Tell the loop that the records before this one are safe on a disk."""

@@ -162,7 +162,7 @@ class ResumePreview(BaseModel):
 class RigStatus(BaseModel):
     """Everything that is always on the screen.
 
-    `lease` is null where nobody is in command, `stop_url` where Stop has no path of its own.
+    `injected` names the faults that the simulated rig has been given. `lease` is null where nobody is in command, `stop_url` where Stop has no path of its own.
     """
 
     mode: ModeWord
@@ -176,6 +176,7 @@ class RigStatus(BaseModel):
     storage: StorageState
     permissives: list[Permissive]
     commands: CommandReasons
+    injected: list[str]
     lease: LeaseOut | None
     stop_url: str | None
 

@@ -88,6 +88,7 @@ class StatusReader:
             storage=storage,
             permissives=self._permissives(mode, _first(trips), supply_pa, storage),
             commands=reasons(Situation(mode, _first(trips), supply_pa)),
+            injected=_injected(life),
             lease=self._lease(),
             stop_url=self._stop_url,
         )
@@ -112,6 +113,7 @@ class StatusReader:
             storage=storage,
             permissives=self._permissives(None, None, math.nan, storage),
             commands=reasons(Situation(None, None, math.nan)),
+            injected=[],
             lease=self._lease(),
             stop_url=self._stop_url,
         )
@@ -177,6 +179,10 @@ class StatusReader:
             bytes=state.size_bytes,
             trouble=state.trouble,
         )
+
+
+def _injected(life: Life) -> list[str]:
+    return [fault.name.lower() for fault in life.injected()] if life.alive else []
 
 
 def _trips(life: Life, record: Any, history: History) -> list[Trip]:
