@@ -32,7 +32,7 @@ class Head:
         self._contradicted = False
 
     def follow(self, database: Database) -> None:
-        """Look whether the file agrees, and keep it from now on. Raises `OSError`."""
+        """Look whether the file agrees, and keep it from now on."""
         kept = read_head(self._path)  # before the rows: it may only lag
         with database.reading() as session:
             newest = repository.newest(session)
@@ -60,16 +60,15 @@ class Head:
 
     def _advance(self, end: Link) -> None:
         self._end = end
-        if self._contradicted:
-            return
-        try:
+        if not self._contradicted:
             self._write(end)
-        except OSError as error:  # it is in the database all the same
-            _log.warning("audit: %s could not be written: %s", self._path, error)
 
     def _write(self, end: Link) -> None:
-        with whole_file(self._path) as file:
-            file.write(json.dumps({"rows": end.id, "hash": end.hash}).encode())
+        try:
+            with whole_file(self._path) as file:
+                file.write(json.dumps({"rows": end.id, "hash": end.hash}).encode())
+        except OSError as error:  # the rows are in the database all the same
+            _log.warning("audit: %s could not be written: %s", self._path, error)
 
 
 def read_head(path: Path) -> Link | None:

@@ -98,7 +98,9 @@ class Notes:
         while True:
             self._spooled.wait()
             self._spooled.clear()
-            last = self._ended.is_set() and not self._threads[0].is_alive()  # nothing comes any more
+            last = (
+                self._ended.is_set() and not self._threads[0].is_alive()
+            )  # nothing comes any more
             while not self._emptied():
                 if self._ended.wait(AGAIN_S):
                     return

@@ -26,7 +26,10 @@ def record(session: Session, entry: Entry) -> None:
 
 
 def note(entry: Entry) -> None:
-    """Enter an act that has no transaction: returns at once, and the row is written soon after."""
+    """Enter an act that has no transaction: returns at once, and the console writes it soon after.
+
+    Where no console is open in this process, nobody keeps it.
+    """
     noted = act(entry, uuid4().hex)
     for take in _takers:
         take(noted)

@@ -1,17 +1,21 @@
 """What the requests about the audit give."""
 
 import json
-from datetime import datetime
 from typing import Annotated, Any
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict
+from pydantic import BaseModel, BeforeValidator, ConfigDict, WithJsonSchema
 
 
 def _read(text: str | None) -> Any:
-    return None if text is None else json.loads(text)
+    """What a row that somebody has garbled holds is shown as it is."""
+    try:
+        return None if text is None else json.loads(text)
+    except ValueError:
+        return text
 
 
 Json = Annotated[Any, BeforeValidator(_read)]
+Time = Annotated[str, WithJsonSchema({"type": "string", "format": "date-time"})]
 
 
 class AuditEntry(BaseModel):
@@ -23,7 +27,7 @@ class AuditEntry(BaseModel):
     model_config = ConfigDict(from_attributes=True)
 
     id: int
-    at: datetime
+    at: Time
     who: str
     role: str
     credential: str

@@ -22,7 +22,7 @@ class Audit:
         self._notes: Notes | None = None
 
     def open(self) -> None:
-        """Keep the end of the chain, and take what is noted from now on. Raises `OSError`."""
+        """Keep the end of the chain, and take what is noted from now on."""
         self.follow()
         self._notes = Notes(self._database, Spool(self._data_dir / SPOOL_FILE))
         self._notes.start()

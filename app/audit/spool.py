@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
 from threading import Lock
-from typing import NamedTuple
+from typing import IO, NamedTuple
 
 from app.audit.entry import Act
 
@@ -29,13 +29,14 @@ class Spool:
         self.path = path
         self._lock = Lock()
         self._start = 0  # what is before it is in the database
-        self._end_torn_line()
 
     def append(self, acts: Iterable[Act]) -> None:
         """Keep some acts, on the disk itself: all of them or none. Raises `OSError`."""
         lines = b"".join(_line(act) for act in acts)
-        with self._lock, self.path.open("ab", buffering=0) as file:
-            size = file.tell()
+        with self._lock, self.path.open("a+b", buffering=0) as file:
+            size = file.seek(0, os.SEEK_END)
+            if _is_torn(file, size):
+                lines = b"\n" + lines
             try:
                 if file.write(lines) != len(lines):
                     raise OSError(f"{self.path} took only some of what is to be kept")
@@ -65,14 +66,13 @@ class Spool:
                 os.truncate(self.path, 0)
                 self._start = 0
 
-    def _end_torn_line(self) -> None:
-        """A kill may have come in the middle of a line: the next one begins on its own."""
-        if not self.path.exists() or self.path.stat().st_size == 0:
-            return
-        with self.path.open("r+b") as file:
-            file.seek(-1, os.SEEK_END)
-            if file.read(1) != b"\n":
-                file.write(b"\n")
+
+def _is_torn(file: IO[bytes], size: int) -> bool:
+    """A kill may have come in the middle of a line: the next one begins on its own."""
+    if size == 0:
+        return False
+    file.seek(size - 1)
+    return file.read(1) != b"\n"
 
 
 def _line(act: Act) -> bytes:

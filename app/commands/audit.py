@@ -65,7 +65,6 @@ def _refusal(detail: str) -> Refusal:
 
 
 def _line(entry: AuditEntry) -> str:
-    at = entry.at.astimezone().isoformat(sep=" ", timespec="seconds")
     why = f" ({entry.why})" if entry.why else ""
     who = f"{entry.who}, {entry.role}"
-    return f"{entry.id:>6}  {at}  {who}: {entry.action} {entry.target}, {entry.outcome}{why}"
+    return f"{entry.id:>6}  {entry.at}  {who}: {entry.action} {entry.target}, {entry.outcome}{why}"

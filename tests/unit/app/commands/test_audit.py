@@ -63,6 +63,13 @@ def test_one_without_its_end_ends_with_1(data: Path) -> None:
     assert (code, HEAD_FILE in said) == (1, True)
 
 
+def test_a_garbled_row_can_still_be_looked_at(data: Path) -> None:
+    without_triggers(data, "UPDATE audit SET at = 'never', after = '{' WHERE id = 2")
+    code, said = ran("list --json", data)
+    assert (code, json.loads(said)[1]["at"], json.loads(said)[1]["after"]) == (0, "never", "{")
+    assert ran("verify", data)[0] == 1
+
+
 def test_where_there_is_none_it_ends_with_2(data: Path, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     assert ran("verify", tmp_path / "empty")[0] == 2
