@@ -31,7 +31,8 @@ def rerun_first_out(
     who: Viewer, number: Number, body: RerunAsked, again: FirstOutsAgain, response: Response
 ) -> RerunOut | Computing:
     """The same once more on the virtual rig, without and with one value changed."""
-    found: RerunOut | Computing = granted(again.rerun(number, body))
+    found = again.rerun(number, body)
     if isinstance(found, Computing):
         response.status_code = 202
-    return found
+        return found
+    return granted(found)

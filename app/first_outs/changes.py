@@ -101,9 +101,7 @@ def _put(data: dict[str, Any], keys: list[str], value: Any, path: str) -> Any:
         inner = inner.get(key) if isinstance(inner, dict) else None
     last = keys[-1]
     if not isinstance(inner, dict) or last not in inner:
-        names = _names_in(data, keys)
-        known = nearest(last, names) or f"; known: {', '.join(names)}"
-        return _refusal(path, value, f"there is no {last or 'empty name'} here{known}")
+        return _refusal(path, value, _unknown(data, keys))
     before = deepcopy(inner[last])
     if isinstance(before, dict):
         return _refusal(path, value, f"name one value of it: {', '.join(before)}")
@@ -111,15 +109,17 @@ def _put(data: dict[str, Any], keys: list[str], value: Any, path: str) -> Any:
     return before
 
 
-def _names_in(data: Any, keys: list[str]) -> list[str]:
-    """The names beside which the first unknown one of a path stands, as whole paths."""
-    names: list[str] = []
+def _unknown(data: Any, keys: list[str]) -> str:
+    """What is wrong with a path, at the first key of it that is not there."""
     for i, key in enumerate(keys):
-        names = [".".join([*keys[:i], name]) for name in data]
-        if key not in data or not isinstance(data[key], dict):
-            break
+        if not isinstance(data, dict):
+            return f"{'.'.join(keys[:i])} has no parts"
+        if key not in data:
+            before = "".join(f"{known}." for known in keys[:i])
+            guess = nearest(key, data).replace("did you mean ", f"did you mean {before}")
+            return f"there is no {before}{key}{guess or '; known here: ' + ', '.join(data)}"
         data = data[key]
-    return names
+    return "there is no such value"
 
 
 def _outcome(

@@ -1,5 +1,6 @@
 """A first-out once more on the virtual rig: the very tick of the loop, the same test, seed and faults."""
 
+from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -27,6 +28,7 @@ Progress = Callable[[float], None]  # told the share that is done, 0…1
 RUN = 1
 RESTED_S = 1.0  # after it is ready, as before any test on a rig
 SETTLED_S = 2.0  # of a test that is begun in its midst, before its detectors look
+_AROUND = round(AROUND_S / RIG.period_s)  # ticks
 _TOGETHER = 4000
 _TWIN = (Quantity.TWIN_RESIDUAL_N, Quantity.TWIN_GOODNESS)
 
@@ -47,11 +49,10 @@ class Played:
 
 
 class _Rig(Virtual):
-    """A virtual rig that keeps its last ticks from one on."""
+    """A virtual rig that keeps its last ticks: as many as there are around a first-out."""
 
     def __init__(self, then: InForceThen) -> None:
-        self.kept: list[Records] = []
-        self.from_tick: int | None = None
+        self.kept: deque[Records] = deque()
         twin = any(d.enabled and d.quantity in _TWIN for d in then.interlocks.detectors)
         gains = gains_record(then.controller)
         table = interlocks_record(then.interlocks, RIG.period_s)
@@ -60,8 +61,10 @@ class _Rig(Virtual):
     def advance(self, ticks: int) -> Records:
         """As of any virtual rig."""
         records = super().advance(ticks)
-        if self.from_tick is not None and len(records) and records["tick"][-1] >= self.from_tick:
-            self.kept.append(records[records["tick"] >= self.from_tick])
+        if len(records):
+            self.kept.append(records)
+        while self.kept and self.kept[0]["tick"][-1] < self.tick - 2 * _AROUND - 1:
+            self.kept.popleft()
         return records
 
     def until(self, tick: int, told: Callable[[int], None]) -> None:
@@ -78,10 +81,8 @@ def play(scene: Scene, then: InForceThen, progress: Progress) -> Played:
         origin = _begin(rig, scene)
     except (RuntimeError, ValueError) as error:
         raise CannotRerun(str(error)) from error
-    around = round(AROUND_S / RIG.period_s)
     tick = origin + scene.trip_tick
-    rig.from_tick = tick - around
-    last = tick + around + 1
+    last = tick + _AROUND + 1
 
     def told(now: int) -> None:
         progress(min(1.0, max(0.0, (now - origin) / (last - origin))))
@@ -156,6 +157,7 @@ def _take(rig: _Rig, step: Step) -> None:
 
 def _played(rig: _Rig, then: InForceThen, tick: int) -> Played:
     records = np.concatenate(rig.kept)
+    records = records[np.abs(records["tick"] - tick) <= _AROUND]
     events = rig.events()
     table = rig.block.fields["interlocks"][int(rig.block.fields["active_interlocks"])]
     names = [d.name for d in then.interlocks.detectors]

@@ -7,7 +7,7 @@ from itertools import chain
 from app.definitions.definition import Definition
 from app.definitions.expansion import expand
 from app.definitions.limits import RIG
-from app.definitions.midway import Begun, begun_at
+from app.definitions.midway import Begun, Hold, begun_at
 from app.definitions.nodes import force_nodes, motion_nodes
 from app.first_outs.account import Account, Step
 from rtcore.core import make_core
@@ -70,10 +70,14 @@ def _midway(trip_tick: int, steps: list[Step], definition: Definition) -> Scene:
     for begin, end in reversed(holds):
         if begin <= first < end:
             first = max(0, begin - 1)
-    played = first - sum(end - begin for begin, end in holds if end <= first)
+    held, still = [], 0
+    for begin, end in holds:
+        if end <= first:
+            held.append(Hold(begin - still, end - begin))
+            still += end - begin
     force = list(chain(*force_nodes(definition.blocks, definition.controller.compensation)))
     motion = list(chain(*motion_nodes(definition.motion)))
-    begun = begun_at(force, played), begun_at(motion, played)
+    begun = begun_at(force, first - still, held), begun_at(motion, first - still, held)
     program = Program(begun[0].course, begun[1].course)
     later = (s.model_copy(update={"tick": s.tick - first}) for s in steps if s.tick > first)
     return Scene(
@@ -89,6 +93,6 @@ def _holds(steps: list[Step], trip_tick: int) -> list[tuple[int, int]]:
         if step.opcode == "hold" and held is None:
             held = step.tick
         elif step.opcode == "resume" and held is not None:
-            found.append((held, step.tick + min(step.tick - held, fade)))
+            found.append((held, step.tick + min(step.tick - held, fade) - 1))
             held = None
     return [*found, (held, trip_tick + 1)] if held is not None else found
