@@ -129,6 +129,8 @@ def test_role_and_disabling_take_effect_at_once_on_whoever_is_in(desk: Desk) -> 
     desk.users.change(user.id, UserChange(disabled=True))
     assert not desk.book.still(after)
     assert code(by_session(desk, key)) is Code.NOT_SIGNED_IN
+    meanwhile = desk.sessions.begin(user.id)  # by who was signing in at that moment
+    assert code(by_session(desk, meanwhile)) is Code.NOT_SIGNED_IN
     desk.users.change(user.id, UserChange(disabled=False))
     assert code(by_session(desk, key)) is Code.NOT_SIGNED_IN  # it does not come back
 
