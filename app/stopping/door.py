@@ -4,7 +4,7 @@ import logging
 import socket
 import ssl
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 
 from app.serving import CannotServe, bind, url_of
@@ -42,13 +42,21 @@ def wanted_port(settings: Settings) -> int:
 @contextmanager
 def open_door(settings: Settings, console: socket.socket) -> Iterator[StopDoor | None]:
     """The door beside the console's listener. None, with a word in the log, where it cannot be had."""
+    with ExitStack() as held:
+        yield _door(settings, console, held)
+
+
+def _door(settings: Settings, console: socket.socket, held: ExitStack) -> StopDoor | None:
+    port = wanted_port(settings)
     try:
-        with bind(settings.host, min(wanted_port(settings), _LAST_PORT)) as listener:
-            listener.setblocking(True)
-            yield StopDoor(listener, int(console.getsockname()[1]), _tls(settings))
+        if port > _LAST_PORT:
+            raise CannotServe(f"there is no port {port}")
+        listener = held.enter_context(bind(settings.host, port))
     except CannotServe as error:
         _log.warning("Stop has no path of its own (FORCERIG_STOP_PORT gives it a port): %s", error)
-        yield None
+        return None
+    listener.setblocking(True)
+    return StopDoor(listener, int(console.getsockname()[1]), _tls(settings))
 
 
 def _tls(settings: Settings) -> ssl.SSLContext | None:

@@ -222,17 +222,3 @@ def test_without_a_loop_the_command_line_says_so(tmp_path: Path) -> None:
     done = subprocess.run([*words, str(tmp_path)], capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "does not run" in done.stderr
-
-
-def test_where_its_port_is_taken_the_console_goes_on_without(tmp_path: Path) -> None:
-    with socket.create_server(("127.0.0.1", 0)) as taken:
-        port = taken.getsockname()[1]
-        code = f"import os; os.environ['FORCERIG_STOP_PORT'] = '{port}'\n{SERVE}"
-        console = ConsoleProcess(tmp_path, program=code)
-        try:
-            console.start(wait=False)
-            assert console.status()["stop_url"] is None
-            assert f"port {port} is taken" in console.said()
-            assert "Stop has no path of its own" in console.said()
-        finally:
-            console.clean_up()

@@ -87,3 +87,11 @@ def test_what_would_be_served_in_clear_is_refused_in_one_line(
     assert what_to_do in said
     assert said.count("\n") == 1
     assert not (tmp_path / "data").exists()
+
+
+def test_stop_on_its_own_path_is_under_tls_too(secure: ConsoleProcess) -> None:
+    url = secure.status()["stop_url"]
+    assert url.startswith("https://")
+    assert secure.http.post(url).json()["mode"] == "tripped"
+    policy = secure.http.get(f"{secure.url}/healthz").headers["content-security-policy"]
+    assert f"connect-src 'self' {url.removesuffix('/stop')};" in policy

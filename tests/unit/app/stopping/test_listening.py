@@ -4,6 +4,7 @@ import socket
 from collections.abc import Iterator
 from contextlib import closing
 from threading import Event
+from threading import enumerate as enumerate_threads
 
 import pytest
 
@@ -111,6 +112,8 @@ def test_who_opens_and_says_nothing_keeps_nobody_out(port: int) -> None:
         with closing(connected(port)) as client:
             client.sendall(ASK)
             assert said(client).startswith(b"HTTP/1.1 200")
+        assert said(silent[0]) == b""  # the oldest was sent away
+        assert sum(thread.name == "stop" for thread in enumerate_threads()) <= MOST + 2
     finally:
         for one in silent:
             one.close()
