@@ -9,6 +9,8 @@ import pytest
 from sqlalchemy.exc import OperationalError
 
 from app.access.principal import Principal, Role
+from app.audit.entry import Act
+from app.audit.record import take_notes
 from app.catalogue.service import StoredTest
 from app.db import Database
 from app.definitions.definition import Definition
@@ -22,6 +24,7 @@ from app.runs.schemas import RunStart
 from app.runs.starting import Needs, Starter
 from rtcore.codes import Opcode
 from tests.a_prediction import a_prediction
+from tests.unit.app.audit.entries import rows
 
 WRONG_MODE = Refusal(Code.WRONG_MODE, "Cannot start: the rig is not in a state for that")
 
@@ -93,6 +96,24 @@ def test_a_start_that_the_loop_refuses_leaves_nothing(lab: Lab) -> None:
     lab.answers = [lambda: WRONG_MODE]
     assert lab.start() is WRONG_MODE
     assert lab.open_runs() == []
+
+
+def test_a_start_is_in_the_audit_and_so_is_its_withdrawal(lab: Lab) -> None:
+    noted: list[Act] = []
+    take_notes(noted.append)
+    lab.answers = [lambda: object(), lambda: WRONG_MODE]
+    lab.start()
+    lab.start()
+    take_notes(None)
+    told = [(row["action"], row["target"], row["why"]) for row in rows(lab.database)]
+    assert told == [
+        ("runs.start", "run 1", None),
+        ("runs.start", "run 2", None),
+        ("runs.withdraw", "run 2", WRONG_MODE.detail),
+    ]
+    (refused,) = noted
+    assert (refused.action, refused.target) == ("runs.start", "hold")
+    assert refused.outcome == "refused: wrong_mode"
 
 
 def test_a_start_that_cannot_be_withdrawn_is_given_up_by_the_next(lab: Lab) -> None:
