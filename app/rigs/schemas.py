@@ -162,7 +162,8 @@ class ResumePreview(BaseModel):
 class RigStatus(BaseModel):
     """Everything that is always on the screen.
 
-    `injected` names the faults that the simulated rig has been given. `lease` is null where nobody is in command, `stop_url` where Stop has no path of its own.
+    `injected` names the faults that the simulated rig has been given. `lease` is null where nobody is in command,
+    `stop_url` where Stop has no path of its own.
     """
 
     mode: ModeWord
