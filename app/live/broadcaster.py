@@ -8,6 +8,7 @@ from collections.abc import Callable
 from app.link.events import EventReader
 from app.link.life import Life, RingReader
 from app.live.client import Client
+from app.live.frame import Stretch
 from app.live.messages import EventFrame, EventOut, RunsChanged, StatusFrame
 from app.rigs.schemas import RigStatus
 
@@ -89,8 +90,9 @@ class Broadcaster:
         if self._samples is not None:
             batch = self._samples.read(MOST_TICKS)
             if len(batch.records):
+                stretch = Stretch(batch.records)
                 for client in self._clients:
-                    client.put_samples(batch.records, batch.lost)
+                    client.put_samples(stretch, batch.lost)
 
     def _put_told(self) -> None:
         life = self._following

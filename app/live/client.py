@@ -2,11 +2,9 @@
 
 import asyncio
 from collections import deque
-from typing import Any, Protocol
+from typing import Protocol
 
-import numpy.typing as npt
-
-from app.live.frame import sample_frame
+from app.live.frame import Stretch
 from app.live.messages import Subscribe
 
 MOST_FRAMES = 32  # of samples, about a second
@@ -56,18 +54,16 @@ class Client:
         self._status = text
         self._something.set()
 
-    def put_samples(self, records: npt.NDArray[Any], lost_ticks: int) -> None:
-        """Send (n,) TELEMETRY of consecutive ticks; `lost_ticks` were missed by everybody."""
+    def put_samples(self, stretch: Stretch, lost_ticks: int) -> None:
+        """Send consecutive ticks; `lost_ticks` before them were missed by everybody."""
         wanted = self._wanted
         if wanted is None or not wanted.channels:
             return
         self._lost_ticks += lost_ticks
         if len(self._samples) >= MOST_FRAMES:
-            self._lost_ticks += len(records)
+            self._lost_ticks += len(stretch.records)
             return
-        self._samples.append(
-            sample_frame(records, wanted.channels, self._lost_ticks, wanted.subscription)
-        )
+        self._samples.append(stretch.frame(wanted.channels, self._lost_ticks, wanted.subscription))
         self._lost_ticks = 0
         self._something.set()
 

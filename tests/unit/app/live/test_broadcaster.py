@@ -7,7 +7,7 @@ import pytest
 from app.link.life import Life
 from app.live.broadcaster import MOST_TICKS, Broadcaster
 from app.live.client import Client
-from app.live.frame import HEADER
+from app.live.frame import HEADER, Stretch
 from app.live.messages import Subscribe
 from app.rigs.schemas import RigStatus
 from rtcore.modes import Mode
@@ -23,8 +23,8 @@ class Ear(Client):
         self.messages: list[dict[str, object]] = []
         self.subscribe(Subscribe(type="subscribe", subscription=1, channels=["force_n"]))
 
-    def put_samples(self, records: object, lost_ticks: int) -> None:
-        super().put_samples(records, lost_ticks)  # type: ignore[arg-type]
+    def put_samples(self, stretch: Stretch, lost_ticks: int) -> None:
+        super().put_samples(stretch, lost_ticks)
         while self._samples:
             _, _, _, ticks, first, lost, _ = HEADER.unpack_from(self._samples.popleft())
             self.given.append((first, ticks, lost))

@@ -8,7 +8,7 @@ import numpy.typing as npt
 import pytest
 
 from app.live.client import MOST_FRAMES, MOST_MESSAGES, Client, TooSlow
-from app.live.frame import HEADER
+from app.live.frame import HEADER, Stretch
 from app.live.messages import Subscribe, parse
 from rtcore.channels import TELEMETRY
 
@@ -51,7 +51,7 @@ async def delivered(client: Client, browser: Browser) -> None:
 
 def test_a_frame_is_as_the_wire_has_it() -> None:
     client, browser = subscribed("force_n", "velocity_m_s"), Browser()
-    client.put_samples(records(500), 7)
+    client.put_samples(Stretch(records(500)), 7)
     asyncio.run(delivered(client, browser))
     (frame,) = browser.frames
     assert HEADER.unpack_from(frame) == (1, 1, 2, TICKS, 500, 7, 3)
@@ -64,10 +64,10 @@ def test_a_frame_is_as_the_wire_has_it() -> None:
 def test_a_slow_browser_loses_whole_frames_and_is_told_how_many_ticks() -> None:
     client, browser = subscribed(), Browser()
     for i in range(MOST_FRAMES + 5):
-        client.put_samples(records(i * TICKS), 0)
+        client.put_samples(Stretch(records(i * TICKS)), 0)
     asyncio.run(delivered(client, browser))
     assert len(browser.frames) == MOST_FRAMES
-    client.put_samples(records(1_000_000), 11)
+    client.put_samples(Stretch(records(1_000_000)), 11)
     asyncio.run(delivered(client, browser))
     lost = [HEADER.unpack_from(frame)[5] for frame in browser.frames]
     assert lost == [0] * MOST_FRAMES + [5 * TICKS + 11]
@@ -92,9 +92,9 @@ def test_who_leaves_too_many_events_unread_is_sent_away() -> None:
 
 def test_a_new_subscription_is_not_given_what_waited_for_the_old_one() -> None:
     client, browser = subscribed(), Browser()
-    client.put_samples(records(0), 0)
+    client.put_samples(Stretch(records(0)), 0)
     client.subscribe(Subscribe(type="subscribe", subscription=4, channels=["mode"]))
-    client.put_samples(records(TICKS), 0)
+    client.put_samples(Stretch(records(TICKS)), 0)
     asyncio.run(delivered(client, browser))
     assert [HEADER.unpack_from(frame)[4:] for frame in browser.frames] == [(TICKS, 0, 4)]
 
