@@ -8,7 +8,7 @@ from app.interlocks.margin import share
 from app.interlocks.table import Detector, Interlocks
 from app.prediction.schemas import Margin
 from app.prediction.watch import NOT_PREDICTED, SENSORS, Watch
-from rtcore.interlocks import Comparison
+from rtcore.interlocks import Comparison, Quantity
 
 LIVE_ONLY = "Only the live rig can tell"
 NO_FAULTS = "The virtual rig's sensors do not fail of themselves"
@@ -17,18 +17,22 @@ NO_NUMBER = "What it watches was not a number"
 TOO_SHORT = "Not armed for as long as it wants to see it"
 
 
-def margins_of(interlocks: Interlocks, watch: Watch) -> list[Margin]:
-    """The margin to every detector, in the order of the table."""
+def margins_of(interlocks: Interlocks, watch: Watch, cycles_left_out: int = 0) -> list[Margin]:
+    """The margin to every detector, in the order of the table; of a test that was cut, to the whole of it."""
     pairs = zip(interlocks.detectors, watch.extremes, strict=True)
-    return [_margin(detector, extreme) for detector, extreme in pairs]
+    return [_margin(detector, extreme, cycles_left_out) for detector, extreme in pairs]
 
 
-def _margin(detector: Detector, extreme: Any) -> Margin:
+def _margin(detector: Detector, extreme: Any, cycles_left_out: int) -> Margin:
     excess = float(extreme["excess"])
-    note = _note(detector, extreme)
+    counts = detector.quantity is Quantity.CYCLES and detector.comparison is not Comparison.BELOW
+    beyond = cycles_left_out if counts else 0
+    excess += beyond
+    note = _note(detector, extreme, trips=excess > 0)
     if note == NO_NUMBER:
         excess = max(1.0, abs(detector.threshold))
     known = math.isfinite(excess) and note in ("", NO_NUMBER)
+    placed = known and not beyond  # what was cut away has no place in the rest
     tick = int(extreme["tick"])
     margin = -excess if known else None
     return Margin(
@@ -41,9 +45,9 @@ def _margin(detector: Detector, extreme: Any) -> Margin:
         extreme=_extreme(detector, excess, extreme) if known and not note else None,
         margin=margin,
         margin_share=share(detector, margin),
-        tick=tick if known else None,
-        time_s=tick * RIG.period_s if known else None,
-        block=int(extreme["block"]) if known and extreme["block"] >= 0 else None,
+        tick=tick if placed else None,
+        time_s=tick * RIG.period_s if placed else None,
+        block=int(extreme["block"]) if placed and extreme["block"] >= 0 else None,
         action=detector.action.name.lower(),
         predicted=note not in (LIVE_ONLY, NO_FAULTS),
         note=note,
@@ -58,9 +62,8 @@ def _extreme(detector: Detector, excess: float, extreme: Any) -> float:
     return detector.threshold + sign * excess
 
 
-def _note(detector: Detector, extreme: Any) -> str:
+def _note(detector: Detector, extreme: Any, *, trips: bool) -> str:
     """Why nothing can be said of a detector; empty where something can."""
-    trips = extreme["excess"] > 0
     if detector.quantity in NOT_PREDICTED:
         return LIVE_ONLY
     if detector.quantity in SENSORS and not trips:

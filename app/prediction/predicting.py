@@ -10,6 +10,7 @@ from app.definitions.definition import Definition
 from app.definitions.limits import RIG
 from app.definitions.outline import outline
 from app.errors import Refusal
+from app.interlocks.table import Interlocks
 from app.prediction.agreement import same_ticks
 from app.prediction.judgement import Judged, Judgement
 from app.prediction.key import key_of
@@ -31,6 +32,7 @@ from app.prediction.shortening import Shortened, shorten
 from app.prediction.through import Through, run_through
 from app.prediction.verdict import Findings, Worst, reasons_of, verdict_of
 from app.prediction.watch import Watch
+from rtcore.modes import Mode
 
 _OF_BLOCK = (
     *("force_error_rms_n", "force_error_peak_n", "peak_force_n"),
@@ -56,7 +58,7 @@ class Predicted:
 def predict(setup: Setup, progress: Progress = ignore) -> Predicted:
     """Predict a test, one of whatever repeats in it where it is long."""
     began = time.perf_counter()
-    shortened = shorten(setup.definition)
+    shortened = shorten(setup.definition, _longest_wait_s(setup.interlocks))
     through = run_through(replace(setup, definition=shortened.definition), progress)
     took_s = time.perf_counter() - began
     if isinstance(through, Refusal):
@@ -66,13 +68,20 @@ def predict(setup: Setup, progress: Progress = ignore) -> Predicted:
     return Predicted(prediction, through, same_ticks(setup.definition, shortened.definition, kept))
 
 
+def _longest_wait_s(interlocks: Interlocks) -> float:
+    """For how long a detector of a running test wants to see what it trips at."""
+    waits = (d.persistence_s for d in interlocks.detectors if d.enabled and Mode.RUNNING in d.armed)
+    return max(waits, default=0.0)
+
+
 def prediction_of(
     setup: Setup, shortened: Shortened, through: Through, took_s: float
 ) -> Prediction:
     """The prediction that a run on the virtual rig amounts to; `setup` is of the whole test."""
     watch = through.watch
     definition = shortened.definition
-    margins = margins_of(setup.interlocks, watch)
+    left_out = outline(setup.definition).cycles - outline(definition).cycles
+    margins = margins_of(setup.interlocks, watch, left_out)
     valve, peaks = _valve(watch), _peaks(watch, setup.rig.supply.high_pa)
     blocks = _blocks(definition, watch, through.judged)
     criteria = _criteria(through.judged, whole=not shortened.cuts)

@@ -36,20 +36,23 @@ class Shortened:
     apart: tuple[tuple[int, int], ...] = ()
 
 
-def shorten(definition: Definition) -> Shortened:
-    """The definition itself where it is short enough, or what stands for all of it."""
+def shorten(definition: Definition, wait_s: float = 0.0) -> Shortened:
+    """The definition itself where it is short enough, or what stands for all of it.
+
+    `wait_s` is for how long a detector wants to see what it trips at: no steady load is cut below that.
+    """
     whole_s = outline(definition).duration_s
     if whole_s <= WHOLE_S:
         return Shortened(definition)
-    found = min(_tried(definition), key=lambda tried: len(tried.apart))
+    found = min(_tried(definition, wait_s), key=lambda tried: len(tried.apart))
     if (found.apart and whole_s <= TOGETHER_S) or _lasts_s(found) >= whole_s:
         return Shortened(definition)
     return found
 
 
-def _tried(definition: Definition) -> Iterator[Shortened]:
+def _tried(definition: Definition, wait_s: float) -> Iterator[Shortened]:
     """Cut ever less, until load and motion meet in it as they do in the whole."""
-    for keep_s in KEEP_S:
+    for keep_s in (max(kept, 1.5 * wait_s) for kept in KEEP_S):
         found = _cut(definition, keep_s)
         yield found
         if not found.apart:

@@ -10,6 +10,7 @@ from app.definitions.definition import Definition
 from app.definitions.reading import definition_from
 from app.interlocks.table import Detector, Interlocks
 from app.prediction.play import Play, made_ready
+from app.prediction.predicting import predict
 from app.prediction.setup import Setup
 from rtcore.interlocks import MAX_DETECTORS, Action, Comparison, Form, Quantity
 from rtcore.modes import Mode
@@ -163,3 +164,24 @@ def test_looking_at_a_run_changes_nothing_in_it() -> None:
     assert isinstance(bare, Play)
     seen = np.concatenate(list(watched.chunks()))
     assert np.array_equal(seen, bare.rig.run())
+
+
+def test_cycles_that_were_cut_away_count() -> None:
+    block = {"kind": "harmonic", "amplitude_n": 500, "frequency_hz": 20, "cycles": 100_000}
+    definition = definition_from({"schema": 1, "name": "long", "blocks": [block]})
+    assert isinstance(definition, Definition)
+    for threshold, margin in ((99_999.0, -1.0), (100_000.0, 0.0), (123_456.0, 23_456.0)):
+        count = Detector(
+            name="count",
+            quantity=Quantity.CYCLES,
+            comparison=Comparison.ABOVE,
+            threshold=threshold,
+            action=Action.HOLD,
+            armed=IN_A_RUN,
+        )
+        setup = Setup(definition, load_rig(), ControllerSettings(), Interlocks(detectors=(count,)))
+        prediction = predict(setup).prediction
+        assert prediction.shortened
+        (found,) = prediction.margins
+        assert found.margin == margin
+        assert (prediction.verdict == "refused") == (margin < 0)
