@@ -159,6 +159,12 @@ class ResumePreview(BaseModel):
     text: str
 
 
+class Chain(BaseModel):
+    """The hard-wired chain; null where nothing is known of it."""
+
+    closed: bool | None
+
+
 class RigStatus(BaseModel):
     """Everything that is always on the screen.
 
@@ -177,6 +183,7 @@ class RigStatus(BaseModel):
     storage: StorageState
     permissives: list[Permissive]
     commands: CommandReasons
+    chain: Chain
     injected: list[str]
     lease: LeaseOut | None
     stop_url: str | None

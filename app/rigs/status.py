@@ -13,6 +13,7 @@ from app.link.life import Life
 from app.link.link import Link
 from app.link.words import trip_code
 from app.recording.recorder import Recorder
+from app.rigs.chain import chain_of
 from app.rigs.history import History
 from app.rigs.loop_health import loop_health
 from app.rigs.permissives import Readiness, permissives
@@ -88,6 +89,7 @@ class StatusReader:
             storage=storage,
             permissives=self._permissives(mode, _first(trips), supply_pa, storage),
             commands=reasons(Situation(mode, _first(trips), supply_pa)),
+            chain=chain_of(life),
             injected=_injected(life),
             lease=self._lease(),
             stop_url=self._stop_url,
@@ -113,6 +115,7 @@ class StatusReader:
             storage=storage,
             permissives=self._permissives(None, None, math.nan, storage),
             commands=reasons(Situation(None, None, math.nan)),
+            chain=chain_of(None),
             injected=[],
             lease=self._lease(),
             stop_url=self._stop_url,

@@ -15,6 +15,7 @@ from app.rigs.schemas import RigStatus
 from app.rigs.status import StatusReader
 from app.runs.plans import Plans
 from app.storage.schemas import StorageState, StorageWord
+from rtcore.interlocks import Quantity
 from rtcore.modes import Mode
 from tests.written_block import APP_SILENCE, FORCE_ERROR, PERIOD_S, WrittenBlock
 
@@ -80,6 +81,17 @@ def test_what_is_no_number_is_null(loop: WrittenBlock) -> None:
     assert status.readings["force_n"] is None
     assert status.readings["velocity_m_s"] is None
     json.loads(status.model_dump_json(), parse_constant=lambda word: pytest.fail(word))
+
+
+def test_the_chain_is_what_its_detector_sees(loop: WrittenBlock) -> None:
+    loop.ticks(1)
+    assert read(loop).chain.closed is None  # none of these detectors looks at it
+    table = loop.block.fields["interlocks"][int(loop.block.fields["active_interlocks"])]
+    table["detectors"]["quantity"][APP_SILENCE] = Quantity.CHAIN_OPEN
+    for value, closed in ((0.0, True), (1.0, False)):
+        loop.block.fields["detector_values"][APP_SILENCE] = value
+        assert read(loop).chain.closed is closed
+    assert read(loop, age_s=2.0).chain.closed is None
 
 
 def test_the_time_in_a_mode_counts_from_its_event(loop: WrittenBlock) -> None:
