@@ -57,12 +57,16 @@ class CommandDone(BaseModel):
 
 
 class Trip(BaseModel):
-    """A latched detector; `first` for the one that tripped first."""
+    """A detector that has tripped; `first` for the one that took the load off first.
+
+    What `blocks` keeps the rig from being pressurised, started or resumed; an indication does not.
+    """
 
     code: str
     text: str
     tick: int
     first: bool
+    blocks: bool
 
 
 class Condition(BaseModel):

@@ -30,7 +30,7 @@ from app.rigs.schemas import (
 from app.runs.plans import Plans
 from app.storage.schemas import StorageState, StorageWord
 from rtcore.channels import CHANNELS, TELEMETRY
-from rtcore.interlocks import Comparison, Quantity
+from rtcore.interlocks import Action, Comparison, Form, Quantity
 from rtcore.modes import Mode
 
 _READINGS = [c.name for c in CHANNELS if c.name not in ("tick", "time_s", "trips", "run", "mode")]
@@ -146,6 +146,7 @@ class StatusReader:
                 for d in detectors
                 if d["enabled"]
                 and d["quantity"] == quantity
+                and d["form"] == Form.VALUE
                 and d["comparison"] != Comparison.BELOW
             ]
             return min(watching, default=None)
@@ -197,12 +198,15 @@ def _trips(life: Life, record: Any, history: History) -> list[Trip]:
             event = history.trip(i)
             text = event.text if event else "Tripped before this console was started"
             tick = event.tick if event else 0
-            found.append(Trip(code=trip_code(detector), text=text, tick=tick, first=i == first))
+            blocks = int(detector["action"]) > Action.INDICATE
+            code = trip_code(detector)
+            found.append(Trip(code=code, text=text, tick=tick, first=i == first, blocks=blocks))
     return sorted(found, key=lambda trip: (not trip.first, trip.tick))
 
 
 def _first(trips: list[Trip]) -> str | None:
-    return trips[0].text if trips else None
+    """What has to be reset before anything else."""
+    return next((trip.text for trip in trips if trip.blocks), None)
 
 
 def _number(value: Any) -> float | None:

@@ -17,7 +17,7 @@ from app.runs.plans import Plans
 from app.storage.schemas import StorageState, StorageWord
 from rtcore.interlocks import Quantity
 from rtcore.modes import Mode
-from tests.written_block import APP_SILENCE, FORCE_ERROR, PERIOD_S, WrittenBlock
+from tests.written_block import APP_SILENCE, FORCE_ERROR, FORCE_HINT, PERIOD_S, WrittenBlock
 
 ROOM = StorageState(free_bytes=10**12, state=StorageWord.OK, seconds_left=1e6)
 IDLE = RecorderState(recording=False, lost_ticks=0, size_bytes=0, trouble=None)
@@ -75,12 +75,13 @@ def test_what_is_latched_is_told_with_the_first_on_top(loop: WrittenBlock) -> No
     assert read(loop).commands.start == f"Press Reset first: {trips[0].text}"
 
 
-def test_what_is_no_number_is_null(loop: WrittenBlock) -> None:
-    loop.ticks(1, force_n=math.nan, velocity_m_s=math.inf)
+def test_an_indication_is_told_and_keeps_nobody_from_starting(loop: WrittenBlock) -> None:
+    loop.go(Mode.READY)
+    loop.trip(FORCE_HINT, 1200.0, 1000.0)
+    loop.ticks(1, trips=1 << FORCE_HINT)
     status = read(loop)
-    assert status.readings["force_n"] is None
-    assert status.readings["velocity_m_s"] is None
-    json.loads(status.model_dump_json(), parse_constant=lambda word: pytest.fail(word))
+    assert [(trip.code, trip.blocks) for trip in status.trips] == [("force", False)]
+    assert status.commands.start is None
 
 
 def test_the_chain_is_what_its_detector_sees(loop: WrittenBlock) -> None:
@@ -92,6 +93,14 @@ def test_the_chain_is_what_its_detector_sees(loop: WrittenBlock) -> None:
         loop.block.fields["detector_values"][APP_SILENCE] = value
         assert read(loop).chain.closed is closed
     assert read(loop, age_s=2.0).chain.closed is None
+
+
+def test_what_is_no_number_is_null(loop: WrittenBlock) -> None:
+    loop.ticks(1, force_n=math.nan, velocity_m_s=math.inf)
+    status = read(loop)
+    assert status.readings["force_n"] is None
+    assert status.readings["velocity_m_s"] is None
+    json.loads(status.model_dump_json(), parse_constant=lambda word: pytest.fail(word))
 
 
 def test_the_time_in_a_mode_counts_from_its_event(loop: WrittenBlock) -> None:
