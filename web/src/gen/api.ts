@@ -164,6 +164,110 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/drills": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Drills
+         * @description Every drill, what must follow it, and why it cannot be given now.
+         */
+        get: operations["listDrills"];
+        put?: never;
+        /**
+         * Give Drill
+         * @description Give the simulated rig a fault. The drill is under way; its record is scored when all has been seen.
+         */
+        post: operations["giveDrill"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/drills/clear": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Clear Drills
+         * @description Take all faults back. A drill under way ends without a score.
+         */
+        post: operations["clearDrills"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/drills/records": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Drill Records
+         * @description The newest drills first; `next` of a page is `before` of the page after it.
+         */
+        get: operations["listDrillRecords"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/drills/records/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Drill Record
+         * @description A drill with what was expected and what was seen.
+         */
+        get: operations["getDrillRecord"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/drills/records/{number}/samples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Drill Samples
+         * @description Least and greatest value in each of at most `points` stretches; each tick where there are enough.
+         */
+        get: operations["getDrillSamples"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/first-outs": {
         parameters: {
             query?: never;
@@ -1762,6 +1866,14 @@ export interface components {
             saturation_share: number | null;
         };
         /**
+         * Chain
+         * @description The hard-wired chain; null where nothing is known of it.
+         */
+        Chain: {
+            /** Closed */
+            closed: boolean | null;
+        };
+        /**
          * Change
          * @description One value, by a path such as `controller.k_p` or `interlocks.force_error.threshold`.
          */
@@ -1805,11 +1917,19 @@ export interface components {
             unit: string;
         };
         /**
+         * ClearRequest
+         * @description Take all faults back.
+         */
+        ClearRequest: {
+            /** Lease */
+            lease?: number | null;
+        };
+        /**
          * Code
          * @description Every reason to refuse. Programs match on these; sentences may change.
          * @enum {string}
          */
-        Code: "invalid_request" | "not_found" | "method_not_allowed" | "not_signed_in" | "not_allowed" | "two_credentials" | "csrf" | "sign_in_failed" | "wrong_password" | "weak_password" | "too_many_attempts" | "too_many_requests" | "unknown_user" | "user_exists" | "last_admin" | "own_account" | "unknown_token" | "unknown_session" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_first_out" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "lease_needed" | "lease_held" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "interlocks_weakened" | "no_program" | "busy" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
+        Code: "invalid_request" | "not_found" | "method_not_allowed" | "not_signed_in" | "not_allowed" | "two_credentials" | "csrf" | "sign_in_failed" | "wrong_password" | "weak_password" | "too_many_attempts" | "too_many_requests" | "unknown_user" | "user_exists" | "last_admin" | "own_account" | "unknown_token" | "unknown_session" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_first_out" | "unknown_drill" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "lease_needed" | "lease_held" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "interlocks_weakened" | "no_program" | "busy" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
         /**
          * CommandDone
          * @description The loop has taken the command in this tick.
@@ -2051,6 +2171,146 @@ export interface components {
             to: number;
         };
         /**
+         * DrillCatalogue
+         * @description All drills, the one that is under way, and the faults that the rig has now with their amounts.
+         */
+        DrillCatalogue: {
+            /** Drills */
+            drills: components["schemas"]["DrillOut"][];
+            /** Injected */
+            injected: {
+                [key: string]: number;
+            };
+            /** Under Way */
+            under_way: number | null;
+        };
+        /**
+         * DrillDetail
+         * @description A drill with its score. Times are seconds from the tick in which the loop took the fault.
+         */
+        DrillDetail: {
+            /** Amount */
+            amount: number;
+            /** Ended At */
+            ended_at: string | null;
+            expected: components["schemas"]["ReactionOut"] | null;
+            /** Fault */
+            fault: string;
+            /** First Out */
+            first_out: string | null;
+            /** First S */
+            first_s: number | null;
+            /**
+             * Given At
+             * Format: date-time
+             */
+            given_at: string;
+            /** Given By */
+            given_by: string;
+            /** Id */
+            id: number;
+            /** Last S */
+            last_s: number | null;
+            /** Mode Before */
+            mode_before: string;
+            /** Period S */
+            period_s: number;
+            /** Reaction Ticks */
+            reaction_ticks: number | null;
+            /** Run Id */
+            run_id: number | null;
+            score: components["schemas"]["Score"] | null;
+            /** State */
+            state: string;
+            /** Tick */
+            tick: number | null;
+            /** Why */
+            why: string | null;
+        };
+        /**
+         * DrillOut
+         * @description A drill of the catalogue. `why_not` says why it cannot be given now, null where it can.
+         *
+         *     `ready` and `test` are what must follow then; null where it cannot be given then.
+         */
+        DrillOut: {
+            /** Amount */
+            amount: string;
+            /** Default */
+            default: number;
+            /** Doc */
+            doc: string;
+            /** Fault */
+            fault: string;
+            /** High */
+            high: number;
+            /** Low */
+            low: number;
+            /** Name */
+            name: string;
+            ready: components["schemas"]["ReactionOut"] | null;
+            test: components["schemas"]["ReactionOut"] | null;
+            /** Unit */
+            unit: string;
+            /** Why Not */
+            why_not: string | null;
+        };
+        /**
+         * DrillPage
+         * @description A page of drills, newest first; `next` is the number to ask for those before.
+         */
+        DrillPage: {
+            /** Next */
+            next: number | null;
+            /** Records */
+            records: components["schemas"]["DrillSummary"][];
+        };
+        /**
+         * DrillRequest
+         * @description Give a fault; without an amount the usual one. Without `lease` it bears the epoch that the caller holds.
+         */
+        DrillRequest: {
+            /** Amount */
+            amount?: number | null;
+            /** Fault */
+            fault: string;
+            /** Lease */
+            lease?: number | null;
+        };
+        /**
+         * DrillSummary
+         * @description A drill in the list: under_way, passed, failed or interrupted, and then `why`.
+         */
+        DrillSummary: {
+            /** Amount */
+            amount: number;
+            /** Ended At */
+            ended_at: string | null;
+            /** Fault */
+            fault: string;
+            /** First Out */
+            first_out: string | null;
+            /**
+             * Given At
+             * Format: date-time
+             */
+            given_at: string;
+            /** Given By */
+            given_by: string;
+            /** Id */
+            id: number;
+            /** Mode Before */
+            mode_before: string;
+            /** Reaction Ticks */
+            reaction_ticks: number | null;
+            /** Run Id */
+            run_id: number | null;
+            /** State */
+            state: string;
+            /** Why */
+            why: string | null;
+        };
+        /**
          * ErrorFrame
          * @description A frame of the browser's could not be understood.
          */
@@ -2114,6 +2374,18 @@ export interface components {
             tick: number;
             /** Time S */
             time_s: number;
+        };
+        /**
+         * Expectation
+         * @description Something that had to be so, whether it was, and what was seen.
+         */
+        Expectation: {
+            /** Met */
+            met: boolean;
+            /** Name */
+            name: string;
+            /** Text */
+            text: string;
         };
         /**
          * FaultOut
@@ -3060,6 +3332,22 @@ export interface components {
             old?: string | null;
         };
         /**
+         * Peak
+         * @description The greatest magnitude of a channel from the fault on; null where nothing of it can be believed.
+         */
+        Peak: {
+            /** After S */
+            after_s: number | null;
+            /** Channel */
+            channel: string;
+            /** Limit */
+            limit: number | null;
+            /** Unit */
+            unit: string;
+            /** Value */
+            value: number | null;
+        };
+        /**
          * PeakKept
          * @description The greatest magnitude of a channel before the first-out and from it on; null where nothing was kept.
          */
@@ -3260,6 +3548,18 @@ export interface components {
          * @enum {integer}
          */
         Quantity: 0 | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 | 13 | 14 | 15 | 16 | 17 | 18 | 19 | 20 | 21 | 22;
+        /**
+         * ReactionOut
+         * @description What must follow; without `first_outs` nothing may take the load off.
+         */
+        ReactionOut: {
+            /** First Outs */
+            first_outs: string[];
+            /** Sees */
+            sees: string;
+            /** Within S */
+            within_s: number;
+        };
         /**
          * Reason
          * @description Why a prediction is not clear, in a sentence to act on; where and when, counted from the start.
@@ -3493,10 +3793,14 @@ export interface components {
          * RigStatus
          * @description Everything that is always on the screen.
          *
-         *     `lease` is null where nobody is in command, `stop_url` where Stop has no path of its own.
+         *     `injected` names the faults that the simulated rig has been given. `lease` is null where nobody is in command,
+         *     `stop_url` where Stop has no path of its own.
          */
         RigStatus: {
+            chain: components["schemas"]["Chain"];
             commands: components["schemas"]["CommandReasons"];
+            /** Injected */
+            injected: string[];
             lease: components["schemas"]["LeaseOut"] | null;
             limits: components["schemas"]["Limits"];
             loop: components["schemas"]["LoopHealth"];
@@ -3805,6 +4109,26 @@ export interface components {
          * @enum {string}
          */
         Scope: "read" | "operate" | "engineer" | "admin";
+        /**
+         * Score
+         * @description Ticks count from the one in which the loop took the fault; null where it did not come to that.
+         */
+        Score: {
+            /** Action */
+            action: string | null;
+            /** Expectations */
+            expectations: components["schemas"]["Expectation"][];
+            /** First Out */
+            first_out: string | null;
+            /** Mode After */
+            mode_after: string;
+            /** Peaks */
+            peaks: components["schemas"]["Peak"][];
+            /** Reaction Ticks */
+            reaction_ticks: number | null;
+            /** Safe Ticks */
+            safe_ticks: number | null;
+        };
         /**
          * SessionOut
          * @description A browser that is signed in; `present` for the one that asks.
@@ -4268,9 +4592,13 @@ export interface components {
         };
         /**
          * Trip
-         * @description A latched detector; `first` for the one that tripped first.
+         * @description A detector that has tripped; `first` for the one that took the load off first.
+         *
+         *     What `blocks` keeps the rig from being pressurised, started or resumed; an indication does not.
          */
         Trip: {
+            /** Blocks */
+            blocks: boolean;
             /** Code */
             code: string;
             /** First */
@@ -4689,6 +5017,203 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ChannelOut"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listDrills: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DrillCatalogue"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    giveDrill: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DrillRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DrillDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    clearDrills: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ClearRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DrillCatalogue"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listDrillRecords: {
+        parameters: {
+            query?: {
+                fault?: string | null;
+                limit?: number;
+                before?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DrillPage"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getDrillRecord: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DrillDetail"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getDrillSamples: {
+        parameters: {
+            query: {
+                /** @description names, with commas between */
+                channels: string;
+                /** @description from the fault: negative before it */
+                from_s?: number;
+                to_s?: number | null;
+                points?: number;
+            };
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunSamples"];
                 };
             };
             /** @description A problem document (RFC 9457) */

@@ -5,10 +5,7 @@ import type { components } from "../gen/api";
 type Schemas = components["schemas"];
 
 export type Mode = Schemas["ModeWord"];
-export type RigStatus = Schemas["RigStatus"] & {
-  readonly chain?: { readonly closed: boolean };
-  readonly injected?: readonly string[];
-};
+export type RigStatus = Schemas["RigStatus"];
 /** Who is in command. */
 export type Lease = Schemas["LeaseOut"];
 export type Trip = Schemas["Trip"];
