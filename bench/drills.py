@@ -18,7 +18,6 @@ from app.interlocks.record import to_record as interlocks_record
 from bench.recorded import Floats, begin, make_test, true_force
 from bench.report import Figure, show, tracked
 from rtcore.codes import Opcode, Reply
-from rtcore.memory.rings import event_reader
 from rtcore.modes import Mode
 from rtcore.rig.faults import FAULTS
 from rtcore.rig.parameters import load_rig
@@ -91,8 +90,7 @@ def give(drill: Drill, situation: Situation, amount: float | None = None) -> Giv
     if reaction is None:
         return None
     virtual = brought_to(situation)
-    events = event_reader(virtual.block)
-    events.position = events.published
+    virtual.events()  # what led here
     wanted = FAULTS[drill.fault].default if amount is None else amount
     reply = virtual.command(Opcode.INJECT_FAULT, drill.fault, wanted)
     if virtual.mode is not mode or reply is not Reply.ACCEPTED:
@@ -110,7 +108,7 @@ def give(drill: Drill, situation: Situation, amount: float | None = None) -> Giv
         mode=mode,
         period_s=PERIOD_S,
         records=np.concatenate(parts),
-        events=events.read().records,
+        events=virtual.events(),
         detectors=virtual.block.fields["interlocks"][1]["detectors"][: len(detectors)],
         names=[d.name for d in detectors],
     )
