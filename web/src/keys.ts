@@ -61,6 +61,14 @@ export const TEST_KEYS: readonly { readonly key: string; readonly does: string }
   { key: "Ctrl S", does: "Save the test" },
 ];
 
+/** Keys of the Interlocks page while its table is being changed, for the help. */
+export const INTERLOCK_KEYS: readonly { readonly key: string; readonly does: string }[] = [
+  { key: "Alt ↑ ↓", does: "Move the detector" },
+  { key: "Ctrl D", does: "Duplicate the detector" },
+  { key: "Ctrl Z", does: "Undo; with Shift: redo" },
+  { key: "Ctrl S", does: "To the reason, and from there: put it in force" },
+];
+
 const SINGLE: ReadonlyMap<string, KeyAction> = new Map([
   ...VIEW_KEYS.map(({ key, action }) => [key, action] as const),
   ...COMMANDS.map(({ key, command }) => [key, { kind: "command", command } as KeyAction] as const),

@@ -72,7 +72,7 @@ function extraDigits(quantity: Quantity, value: number | null | undefined): numb
   return Math.min(2, Math.max(0, 2 - whole - quantity.digits));
 }
 
-const WORDS: Readonly<Record<string, string>> = { rms: "RMS", rmse: "RMSE", xy: "X-Y" };
+const WORDS: Readonly<Record<string, string>> = { rms: "RMS", rmse: "RMSE", xy: "X-Y", lvt: "LVT", lvdt: "LVDT" };
 const UNIT_ENDINGS = /_(n|m|s|hz|pa|deg|rad|db|m_s|n_s|m3_s|m_s2|share|n_m|percent)$/;
 
 /** A name of the backend's as one reads it: `force_error_rms_n` is `Force error RMS`. */

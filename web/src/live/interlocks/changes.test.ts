@@ -19,8 +19,8 @@ describe("changesBetween", () => {
   });
 
   it("tells additions, removals and another order, which decides who is first of two in one tick", () => {
-    expect(told([force], [force, lvdt])).toEqual(["Lvdt: added"]);
-    expect(told([force, lvdt], [force])).toEqual(["Lvdt: removed"]);
+    expect(told([force], [force, lvdt])).toEqual(["LVDT: added"]);
+    expect(told([force, lvdt], [force])).toEqual(["LVDT: removed"]);
     expect(told([force, lvdt], [lvdt, force])).toEqual(["The table: another order"]);
   });
 

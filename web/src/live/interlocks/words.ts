@@ -86,7 +86,8 @@ type Measured = Pick<Detector, "quantity" | "form">;
 /** How the value of a detector is written: a rate is one a second. */
 export function shownQuantity({ quantity, form }: Measured): Quantity {
   const { quantity: plain } = WATCHED[quantity];
-  return form === "rate" ? { ...plain, symbol: `${plain.symbol || "1"}/s` } : plain;
+  const digits = Math.max(0, plain.digits - 2);
+  return form === "rate" ? { ...plain, digits, symbol: `${plain.symbol || "1"}/s` } : plain;
 }
 
 /** The states that a detector's value may be; null where it is a figure. */
@@ -97,7 +98,7 @@ export const statesOf = ({ quantity, form }: Measured): readonly string[] | null
 export function watches({ quantity, form, horizon_s }: Measured & Pick<Detector, "horizon_s">): string {
   const { label } = WATCHED[quantity];
   if (form === "rate") return `Rate of ${lower(label)}`;
-  return form === "look_ahead" ? `${label} in ${withUnit(TIME, horizon_s)}` : label;
+  return form === "look_ahead" ? `${label} in ${persistenceText(horizon_s ?? 0)}` : label;
 }
 
 const ABBREVIATION = /^[A-Z]{2}/;
