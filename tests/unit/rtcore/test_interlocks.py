@@ -8,7 +8,10 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numba import config
 
+from rtcore import interlocks as detectors_of_loop
+from rtcore import modes
 from rtcore.interlocks import (
     DETECTOR,
     MAX_DETECTORS,
@@ -240,3 +243,16 @@ def test_an_empty_table_is_refused() -> None:
     record = interlocks(detector(Quantity.FORCE_N, 1.0, Action.STOP))
     record["count"] = 0
     assert not interlocks_are_valid(record)
+
+
+@pytest.mark.skipif(config.DISABLE_JIT, reason="nothing is compiled here")
+@pytest.mark.parametrize(
+    "kernel",
+    [
+        *(judged_value, is_violated, check_detector, latches, interlocks_are_valid),
+        *(detectors_of_loop.detector_is_valid, modes.next_mode, modes.is_pressurised),
+        *(modes.is_closed_loop, modes.is_run),
+    ],
+)
+def test_every_kernel_is_compiled(kernel: object) -> None:
+    assert hasattr(kernel, "py_func")
