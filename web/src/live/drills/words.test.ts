@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Drill, DrillDetail, DrillSummary } from "./types";
+import type { Drill, DrillSummary } from "./types";
 import { amountQuantity, amountRefusal, announcement, boundsText, reactionFigures, reactionText, tally, timeText } from "./words";
 
 const plain = (text: string): string => text.replaceAll("\u00a0", " ");
@@ -46,7 +46,7 @@ describe("a drill in words", () => {
 
   it("counts ticks and time", () => {
     const score = { first_out: "force", action: "shutdown", reaction_ticks: 1, safe_ticks: 1, mode_after: "tripped" };
-    const figures = reactionFigures({ period_s: 1 / 4000, score: { ...score, peaks: [], expectations: [] } } as DrillDetail);
+    const figures = reactionFigures({ period_s: 1 / 4000, score: { ...score, peaks: [], expectations: [] } });
     expect(figures.map(([, text]) => plain(text))).toEqual(["1 tick, 0.25 ms", "1 tick, 0.25 ms", "Force", "tripped"]);
     expect([0.06, 3, 20].map((time_s) => plain(timeText(time_s)))).toEqual(["60 ms", "3 s", "20 s"]);
   });
