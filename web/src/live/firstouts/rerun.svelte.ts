@@ -9,7 +9,7 @@ import { rerunFirstOut } from "./requests";
 import type { Course, Rerun } from "./types";
 
 const WAIT_S = 1;
-const POINTS = 4000;
+const POINTS = 20_000; // every tick of the four seconds
 /** The channel of each chart that is laid over what was recorded. */
 const CHANNEL_OF: Readonly<Record<string, string>> = {
   force: "force_n",
