@@ -56,7 +56,11 @@ def test_a_drill_is_given_seen_scored_and_kept(ready: ConsoleProcess) -> None:
     assert ready.status()["injected"] == []
     assert ready.mode() == "tripped"
 
-    window = {"channels": "mode,supply_pressure_pa", "from_s": -0.001, "to_s": 0.001}
+    window: dict[str, str | float] = {
+        "channels": "mode,supply_pressure_pa",
+        "from_s": -0.001,
+        "to_s": 0.001,
+    }
     samples = ready.http.get(f"/drills/records/{given['id']}/samples", params=window).json()
     assert len(samples["time_s"]) == 9  # a tick each
     page = ready.http.get("/drills/records", params={"fault": "chain_open", "limit": 1}).json()

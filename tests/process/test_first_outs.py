@@ -53,7 +53,7 @@ def test_the_console_is_killed_before_it_could_keep_anything(console: ConsolePro
     detail = console.http.get(f"/first-outs/{row['id']}").json()
     assert detail["trips"][0]["detector"] == "app_silence"
     assert (detail["first_s"], detail["last_s"]) == (-2.0, 2.0)
-    asked = {"channels": "force_n,mode", "from_s": -0.01, "to_s": 0.01}
+    asked: dict[str, str | float] = {"channels": "force_n,mode", "from_s": -0.01, "to_s": 0.01}
     window = console.http.get(f"/first-outs/{row['id']}/samples", params=asked).json()
     assert not window["decimated"]
     assert (window["time_s"][0], window["time_s"][-1], len(window["time_s"])) == (-0.01, 0.01, 81)

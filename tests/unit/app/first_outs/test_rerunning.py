@@ -20,10 +20,17 @@ from rtcore.codes import Opcode
 from rtcore.rig.faults import Fault
 from tests.unit.app.first_outs.lived import HARMONIC, SECOND, Lived, definition
 
-LONG: dict[str, Any] = HARMONIC | {
+LONG: dict[str, Any] = {
+    **HARMONIC,
     "motion": [
-        {"kind": "harmonic", "mean_m": 0, "amplitude_m": 0.002, "frequency_hz": 0.5, "duration_s": 600}
-    ]
+        {
+            "kind": "harmonic",
+            "mean_m": 0,
+            "amplitude_m": 0.002,
+            "frequency_hz": 0.5,
+            "duration_s": 600,
+        }
+    ],
 }
 
 
@@ -126,9 +133,7 @@ def test_a_long_test_begins_shortly_before_where_it_was(lived: Lived) -> None:
     assert again.first_out is not None
     assert again.first_out.time_s == 0.0
     names = ("force_command_n", "displacement_command_m")
-    before = [
-        columns for columns in samples.chunks(names, account.tick - SECOND, account.tick - 1)
-    ]
+    before = list(samples.chunks(names, account.tick - SECOND, account.tick - 1))
     for name in names:
         recorded = np.concatenate([columns[name] for columns in before])
         ticks = again.records["tick"]

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from app.errors import Refusal
 from app.live.client import MOST_FRAMES, MOST_MESSAGES, Client, TooSlow
 from app.live.frame import HEADER, Stretch
 from app.live.messages import Subscribe, parse
@@ -116,5 +117,5 @@ def test_a_frame_that_is_not_understood_is_refused_with_a_reason(
     frame: str | None, complaint: str
 ) -> None:
     refusal = parse(frame)
-    assert not isinstance(refusal, Subscribe)
+    assert isinstance(refusal, Refusal)
     assert complaint in refusal.detail
