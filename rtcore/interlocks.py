@@ -37,6 +37,7 @@ class Quantity(IntEnum):
     DISPLACEMENT_ERROR_M = 20
     PRESSURE_1_PA = 21
     PRESSURE_2_PA = 22
+    TWIN_SPOOL = 23  # spool minus that of the virtual rig, share of its stroke
 
 
 class SensorFault(IntEnum):

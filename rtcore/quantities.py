@@ -25,6 +25,7 @@ OBSERVED = np.dtype(
         ("cycles", "i8"),  # of the run
         ("saturated", "f8"),
         ("twin_force_n", "f8"),  # of the virtual rig beside this one, in this tick
+        ("twin_spool", "f8"),
         ("has_twin", "i8"),
         ("twin_square_n2", "f8"),
         ("force_peak_n", "f8"),
@@ -80,10 +81,11 @@ def watch_valve(o: Record, valve_command: float, valve_limit: float, period_s: f
 
 
 @kernel
-def watch_twin(o: Record, force_n: float, period_s: float) -> None:
-    """Residual and rolling G (paper eq. 4): root of the mean square of the residual over the peak of the force."""
+def watch_twin(o: Record, force_n: float, spool: float, period_s: float) -> None:
+    """Residuals, and rolling G (paper eq. 4): root of the mean square of that of the force over its peak."""
     if o.has_twin == 0:
         o.quantities[Quantity.TWIN_RESIDUAL_N] = 0.0
+        o.quantities[Quantity.TWIN_SPOOL] = 0.0
         o.quantities[Quantity.TWIN_GOODNESS] = 100.0
         return
     residual_n = force_n - o.twin_force_n
@@ -96,6 +98,7 @@ def watch_twin(o: Record, force_n: float, period_s: float) -> None:
     o.force_peak_n = fading_peak(o.force_peak_n, force_n, period_s, ROLLING_S)
     peak_n = max(o.force_peak_n, LEAST_PEAK_N)
     o.quantities[Quantity.TWIN_RESIDUAL_N] = residual_n
+    o.quantities[Quantity.TWIN_SPOOL] = spool - o.twin_spool
     o.quantities[Quantity.TWIN_GOODNESS] = 100.0 * (1.0 - np.sqrt(o.twin_square_n2) / peak_n)
 
 
@@ -128,4 +131,4 @@ def observe(
     q[Quantity.UNRECORDED_S] = unrecorded_s
     watch_cycle(o, core)
     watch_valve(o, core.outputs.valve_command, valve_limit, period_s)
-    watch_twin(o, sample.force_n, period_s)
+    watch_twin(o, sample.force_n, inputs.spool_position, period_s)

@@ -30,6 +30,7 @@ NOT_RECORDED = {
     Quantity.UNRECORDED_S: "how much had not been recorded",
     Quantity.TWIN_RESIDUAL_N: "the force of the virtual rig beside the real one",
     Quantity.TWIN_GOODNESS: "the force of the virtual rig beside the real one",
+    Quantity.TWIN_SPOOL: "the spool of the virtual rig beside the real one",
     Quantity.CHAIN_OPEN: "the state of the hard-wired chain",
     Quantity.UNDERPEAK: "whether the load was swinging",
     Quantity.CYCLES: "the cycles of the run before",

@@ -30,7 +30,7 @@ RESTED_S = 1.0  # after it is ready, as before any test on a rig
 SETTLED_S = 2.0  # of a test that is begun in its midst, before its detectors look
 _AROUND = round(AROUND_S / RIG.period_s)  # ticks
 _TOGETHER = 4000
-_TWIN = (Quantity.TWIN_RESIDUAL_N, Quantity.TWIN_GOODNESS)
+_TWIN = (Quantity.TWIN_RESIDUAL_N, Quantity.TWIN_GOODNESS, Quantity.TWIN_SPOOL)
 
 
 class CannotRerun(Exception):

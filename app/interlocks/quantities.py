@@ -52,6 +52,7 @@ REACH: Mapping[Quantity, Reach] = {
     Quantity.DISPLACEMENT_ERROR_M: _within(0.065),
     Quantity.PRESSURE_1_PA: _PRESSURE,
     Quantity.PRESSURE_2_PA: _PRESSURE,
+    Quantity.TWIN_SPOOL: _within(2.5),
 }
 
 # Numbers without a unit in their names that people read with one.

@@ -77,6 +77,7 @@ QUANTITIES: Mapping[Quantity, Words] = {
     Quantity.CYCLES: Words("Cycles of the run"),
     Quantity.TWIN_RESIDUAL_N: Words("Force beside the virtual rig's", 1.0, "N"),
     Quantity.TWIN_GOODNESS: Words("Agreement with the virtual rig", 1.0, "%"),
+    Quantity.TWIN_SPOOL: Words("Spool off the virtual rig", 100.0, "%"),
     Quantity.UNRECORDED_S: Words("Samples not on the disk yet", 1.0, "s", 1),
     Quantity.CHAIN_OPEN: _Chain("Hard-wired chain"),
     Quantity.DISPLACEMENT_ERROR_M: Words("Displacement error", 1e3, "mm", 1),

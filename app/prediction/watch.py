@@ -15,6 +15,7 @@ NOT_PREDICTED = (
     Quantity.DEADLINES_MISSED,
     Quantity.TWIN_RESIDUAL_N,
     Quantity.TWIN_GOODNESS,
+    Quantity.TWIN_SPOOL,
     Quantity.UNRECORDED_S,
     Quantity.CHAIN_OPEN,
 )

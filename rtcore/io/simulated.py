@@ -40,7 +40,9 @@ def cycle(
     read_world(world, core.inputs, period_s)
     if twin_address != 0:
         twin = carray(pointer(twin_address), 1, WORLD)[0]
-        core.observed.twin_force_n = block.twin_force_n = move_twin(twin, core.outputs, period_s)
+        force_n, spool = move_twin(twin, core.outputs, period_s)
+        core.observed.twin_force_n = block.twin_force_n = force_n
+        core.observed.twin_spool = spool
     tick(core, block, block_address, now_ns, wakeup_latency_ns, tick_time_ns, missed)
     write_world(world, core.outputs, period_s)
 

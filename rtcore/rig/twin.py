@@ -10,7 +10,7 @@ import numpy.typing as npt
 from rtcore.compiled import Record, kernel
 from rtcore.rig.integrate import advance
 from rtcore.rig.parameters import RigParameters
-from rtcore.rig.plant import SUBSTEPS, Y_F
+from rtcore.rig.plant import SUBSTEPS, X_S, Y_F
 from rtcore.rig.world import make_world, write_world
 
 
@@ -20,8 +20,8 @@ def make_twin(rig: RigParameters) -> npt.NDArray[Any]:
 
 
 @kernel
-def move_twin(twin: Record, outputs: Record, period_s: float) -> float:
-    """Give the twin what the rig was given a tick ago, carry it to now; returns its load cell's force, N."""
+def move_twin(twin: Record, outputs: Record, period_s: float) -> tuple[float, float]:
+    """Give the twin what the rig was given a tick ago, carry it to now; returns its force (N) and spool."""
     write_world(twin, outputs, period_s)
     advance(twin.plant, twin.y, twin.u, twin.work, period_s, SUBSTEPS)
-    return float(twin.y[Y_F])
+    return twin.y[Y_F], twin.y[X_S] / twin.plant.spool_stroke_m

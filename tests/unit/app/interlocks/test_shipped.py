@@ -41,6 +41,8 @@ def test_the_loop_adopts_it_and_it_watches_everything_that_can_go_wrong() -> Non
         ("lvt", 0.5, 1, Action.SHUTDOWN, ALWAYS),
         ("lvdt", 0.5, 1, Action.STOP, ALWAYS),
         ("pressure_sensor", 0.5, 1, Action.STOP, ALWAYS),
+        ("stop_error", 10e3, 400, Action.SHUTDOWN, {Mode.STOPPING}),
+        ("valve_spool", 0.15, 20, Action.SHUTDOWN, LOADED),
         ("twin_residual", 5e3, 200, Action.STOP, IN_A_TEST),
         ("twin_goodness", 70.0, 4000, Action.INDICATE, {Mode.RUNNING}),
         ("supply_pressure", 15e6, 200, Action.STOP, IN_A_TEST | {Mode.READY}),
@@ -65,7 +67,7 @@ def test_each_reaches_the_loop(
 
 
 def test_none_is_left_out_above() -> None:
-    assert len(BY_NAME) == 24
+    assert len(BY_NAME) == 26
 
 
 @pytest.mark.parametrize("detector", BY_NAME.values(), ids=BY_NAME)

@@ -46,6 +46,7 @@ export const WATCHED: Readonly<Record<QuantityName, Watched>> = {
   cycles: { label: "Cycles of this run", quantity: COUNT },
   twin_residual_n: { label: "Force beside the twin's", quantity: FORCE },
   twin_goodness: { label: "Agreement with the twin", quantity: PERCENT },
+  twin_spool: { label: "Spool beside the twin's", quantity: RATIO },
   unrecorded_s: { label: "Not yet on the disk", quantity: TIME },
   chain_open: { label: "Hard-wired chain", quantity: COUNT, states: ["closed", "open"] },
   displacement_error_m: { label: "Displacement error", quantity: LENGTH },
