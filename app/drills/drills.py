@@ -51,7 +51,7 @@ DRILLS = (
         Fault.LOAD_CELL_OPEN,
         JUMP,
         AT_ONCE_S,
-        "The force jumps to the end of its range and the rig trips in the same tick; the first-out names the force.",
+        "The force jumps to the end of its range and the rig trips in the same tick; the first-out says: saturated.",
     ),
     _both(
         Fault.LOAD_CELL_FROZEN,

@@ -148,7 +148,7 @@ def test_the_file_holds_every_channel_and_all_it_was_made_with(
     assert metadata["seed"] == 7
     assert metadata["definition"]["blocks"][0]["force_n"] == 1000
     assert metadata["controller"]["k_p"] == 1.19e-5
-    assert metadata["interlocks"]["detectors"][0]["name"] == "force"
+    assert metadata["interlocks"]["detectors"][0]["name"] == "load_cell"
     assert metadata["rig"]["unit"]["stroke_m"] == 0.03
     assert metadata["software_version"]
     assert metadata["verdict"] == "pass"

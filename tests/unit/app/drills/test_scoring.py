@@ -131,8 +131,8 @@ def test_a_detector_that_only_indicates_is_no_first_out() -> None:
 def test_of_several_in_a_tick_the_strongest_is_first_then_the_table_decides() -> None:
     stop, shutdown = trip(TICK + 9, "displacement"), trip(TICK + 9, "load_cell")
     assert seen(stop, shutdown).first_out() == (TICK + 9, NAMES.index("load_cell"))
-    both = seen(shutdown, trip(TICK + 9, "force"))
-    assert both.first_out() == (TICK + 9, NAMES.index("force"))
+    both = seen(trip(TICK + 9, "force"), shutdown)
+    assert both.first_out() == (TICK + 9, NAMES.index("load_cell"))
 
 
 def test_where_nothing_may_trip_a_trip_fails() -> None:

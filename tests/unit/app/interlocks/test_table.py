@@ -32,8 +32,9 @@ GOOD = {
 def test_a_table_survives_being_written_in_words() -> None:
     table = default_interlocks()
     data = to_data(table)
-    assert data["detectors"][0]["quantity"] == "force_n"
-    assert data["detectors"][0]["armed"] == [m.name.lower() for m in Mode if is_pressurised(m)]
+    force = next(row for row in data["detectors"] if row["name"] == "force")
+    assert force["quantity"] == "force_n"
+    assert force["armed"] == [m.name.lower() for m in Mode if is_pressurised(m)]
     assert interlocks_from(data) == table
 
 
