@@ -2,7 +2,8 @@
 
 The database comes first, as it is at one moment. Of the runs that it knows, those that are over come
 with their file; of one under way, what its parts held when they were read. What is torn at the end of
-such a part is cut when the run is filed after a restore.
+such a part is cut when the run is filed after a restore. Black boxes of first-outs and samples of drills
+come after it: one that is younger than the database is entered again, or left alone, after a restore.
 """
 
 import io
@@ -11,7 +12,7 @@ import sqlite3
 import tarfile
 import tempfile
 from collections.abc import Callable, Iterable
-from contextlib import ExitStack, closing
+from contextlib import ExitStack, closing, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -75,7 +76,12 @@ def back_up(source: Source, target: Path, progress: Progress = lambda share: Non
             made.run(run)
             done += size
             progress(done / whole)
-        made.folder(source.data_dir / "histories")
+        made.folder(source.data_dir, "histories")
+        if source.with_samples:
+            made.folder(source.data_dir, "drills")
+            made.folder(source.data_dir, "first-outs")
+            for box in sorted((source.data_dir / "first-outs").glob("[0-9]*")):
+                made.folder(source.data_dir, f"first-outs/{box.name}")
         progress(1.0)
     return Made(len(runs), made.under_way, made.files, target.stat().st_size)
 
@@ -106,12 +112,13 @@ class _Made:
                     self._add(f"runs/{folder.name}/{path.name}", path, file)
                 return
 
-    def folder(self, folder: Path) -> None:
-        """Every file of a folder, those in the writing left out."""
-        for path in sorted(folder.glob("*")):
-            if path.is_file() and not path.name.startswith(PREFIX):
-                with path.open("rb") as file:
-                    self._add(f"{folder.name}/{path.name}", path, file)
+    def folder(self, data_dir: Path, name: str) -> None:
+        """Every file of a folder; not those in the writing, nor those removed meanwhile."""
+        for path in sorted((data_dir / name).glob("*")):
+            if path.name.startswith(PREFIX) or not path.is_file():
+                continue
+            with suppress(FileNotFoundError), path.open("rb") as file:
+                self._add(f"{name}/{path.name}", path, file)
 
     def _add(self, name: str, path: Path, file: IO[bytes]) -> None:
         self._archive.addfile(self._archive.gettarinfo(arcname=name, fileobj=file), file)

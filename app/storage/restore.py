@@ -20,7 +20,8 @@ from app.storage.backup import DATABASE, FORMAT, MANIFEST, known_runs, snapshot
 
 _ZSTD = b"\x28\xb5\x2f\xfd"
 _AUDIT = "|".join(re.escape(name) for name in (HEAD_FILE, SPOOL_FILE))
-_MEMBER = re.compile(rf"(backup\.json|forcerig\.sqlite|{_AUDIT}|histories/[^/]+|runs/\d+/[^/]+)")
+_FILES = r"histories/[^/]+|drills/[^/]+|first-outs/(\d+/)?[^/]+|runs/\d+/[^/]+"
+_MEMBER = re.compile(rf"(backup\.json|forcerig\.sqlite|{_AUDIT}|{_FILES})")
 Progress = Callable[[float], None]
 
 

@@ -6,6 +6,7 @@ import sqlite3
 import tarfile
 from contextlib import closing
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -26,6 +27,7 @@ from tests.unit.app.storage.stored_runs import FILES, REDUCED, database, enter, 
 
 __all__ = ["database"]  # the fixture
 
+BOXES = ("drills/4.parquet", "first-outs/3/box.parquet", "first-outs/waiting-1-2.parquet")
 RECORDS = records_of(ticks_with_gaps(100, [(3000, 10), (2000, 0)]), 1)
 
 
@@ -44,6 +46,10 @@ def data(database: Database, tmp_path: Path) -> Path:
     histories.mkdir()
     (histories / "flight.csv").write_text("0\n1\n")
     (histories / ".flight.csv.xyz").write_text("half")
+    for name in (*BOXES, "first-outs/.box.xyz"):
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(name)
     return tmp_path
 
 
@@ -66,7 +72,15 @@ def test_all_comes_back(data: Path, name: str) -> None:
     with closing(sqlite3.connect(back / "forcerig.sqlite")) as connection:
         assert connection.execute("PRAGMA integrity_check").fetchone() == ("ok",)
     assert known_runs(back / "forcerig.sqlite") == [1, 2]
-    assert {path.name for path in back.iterdir()} == {"forcerig.sqlite", "histories", "runs"}
+    assert [path.read_text() for path in map(back.joinpath, BOXES)] == list(BOXES)
+    assert (
+        sum(
+            path.is_file() for name in ("drills", "first-outs") for path in (back / name).rglob("*")
+        )
+        == 3
+    )
+    of_runs = {"forcerig.sqlite", "histories", "runs"}
+    assert {path.name for path in back.iterdir()} == of_runs | {"drills", "first-outs"}
     assert not list(data.glob(".*"))
 
 
@@ -142,6 +156,21 @@ def test_the_database_is_of_one_moment(data: Path) -> None:
     assert known_runs(data / "back" / "forcerig.sqlite") == [1, 2]
 
 
+def test_a_box_that_goes_meanwhile_is_no_trouble(
+    data: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    add = module._Made._add
+
+    def going(made: module._Made, name: str, *rest: Any) -> None:
+        (data / "first-outs/3/box.parquet").unlink(missing_ok=True)
+        add(made, name, *rest)
+
+    monkeypatch.setattr(module._Made, "_add", going)
+    back_up(source(data), data / "b.tar")
+    restore(data / "b.tar", data / "back")
+    assert not (data / "back/first-outs/3/box.parquet").exists()
+
+
 def test_without_samples(data: Path) -> None:
     whole = back_up(source(data), data / "whole.tar")
     made = back_up(Source(data, data / "forcerig.sqlite", with_samples=False), data / "b.tar")
@@ -190,9 +219,10 @@ def test_what_is_no_backup_is_refused_and_leaves_nothing(data: Path) -> None:
     text = data / "text.tar"
     text.write_text("no archive at all" * 100)
     outside = archive_of(data / "outside.tar", {"../evil": b"x"})
+    through = archive_of(data / "through.tar", {"first-outs/../../evil": b"x"})
     empty = archive_of(data / "empty.tar", {})
     newer = archive_of(data / "newer.tar", {"backup.json": b'{"format": 99}'})
-    for archive in (torn, text, outside, empty, newer):
+    for archive in (torn, text, outside, through, empty, newer):
         with pytest.raises(NotABackup):
             restore(archive, data / "back")
         assert not (data / "back").exists()
