@@ -8,6 +8,7 @@ from threading import Event, Thread
 
 from app.link.life import Life
 from app.recording.clerk import Clerk
+from app.recording.run_file import RunFile
 from app.recording.tape import Tape
 
 _log = logging.getLogger(__name__)
@@ -38,6 +39,7 @@ class Recorder:
         self._lives: SimpleQueue[Life | None] = SimpleQueue()
         self._ended = Event()
         self._tape: Tape | None = None
+        self._unsynced: str | None = None  # why the last sync of the present part failed
         self.following: Life | None = None  # the life whose runs are recorded now
         self._thread = Thread(target=self._run, name="recorder", daemon=True)
         self._syncer = Thread(target=self._sync, name="recorder-sync", daemon=True)
@@ -62,7 +64,7 @@ class Recorder:
         """What it is doing."""
         tape = self._tape
         file = tape.current if tape is not None else None
-        trouble = tape.trouble if tape is not None else None
+        trouble = (tape.trouble if tape is not None else None) or self._unsynced
         if file is None:
             return RecorderState(False, 0, 0, trouble)
         ticks = file.extent.ticks
@@ -110,9 +112,16 @@ class Recorder:
         while not self._ended.wait(SYNC_S):
             tape = self._tape
             file = tape.current if tape is not None else None
-            if file is None:
-                continue
-            try:
-                file.sync()
-            except (OSError, ValueError) as error:  # ValueError: closed meanwhile
-                _log.warning("run %d: could not sync: %s", file.run_id, error)
+            self._unsynced = None if file is None else self._trouble_of_sync(file)
+
+    def _trouble_of_sync(self, file: RunFile) -> str | None:
+        """Sync; why that failed, where it did: what the system took may never get to the disk."""
+        try:
+            file.sync()
+        except ValueError:  # closed meanwhile
+            return None
+        except OSError as error:
+            if self._unsynced is None:
+                _log.error("run %d: could not sync: %s", file.run_id, error)
+            return error.strerror or str(error)
+        return None
