@@ -11,7 +11,6 @@ from rtcore.codes import EventKind, Opcode, Reply
 from rtcore.compiled import Record, kernel, load_acquire, offset_of
 from rtcore.control.law import adopt_gains, gains_are_valid
 from rtcore.interlocks import interlocks_are_valid
-from rtcore.io import FAULT_SLOTS
 from rtcore.memory.commands import acknowledge, pending
 from rtcore.memory.layout import BLOCK, COMMAND_SLOTS
 from rtcore.memory.playing import rewind
@@ -24,6 +23,7 @@ from rtcore.program.validate import (
     segment_is_valid,
     table_is_bounded,
 )
+from rtcore.rig.faults import KINDS, amount_within
 from rtcore.sample import sensors_are_sound
 from rtcore.supervise import apply_event, clear_trips, keep_trips, start_run
 
@@ -105,8 +105,9 @@ def _adopt_small(core: Record, block: Record, opcode: int, bank: int) -> int:
     block.active_interlocks = bank
     core.has_interlocks = 1
     core.violated_ticks[:] = 0
-    for i in range(len(core.trends)):
-        core.trends[i].last = np.nan  # of another quantity, maybe
+    for i in range(len(core.trends)):  # of another quantity, maybe
+        core.trends[i].last = np.nan
+        core.trends[i].rate_1_s = 0.0
     return Reply.ACCEPTED
 
 
@@ -172,19 +173,20 @@ def _start(core: Record, block: Record, block_address: int, run: int) -> int:
 
 @kernel
 def _inject(core: Record, block: Record, block_address: int, kind: int, amount: float) -> int:
-    """Have the simulated rig break, or mend it again with an amount of 0."""
+    """Have the simulated rig break, or mend it again with an amount of 0. What is told is what is in force."""
     if core.settings.simulated == 0:
         return Reply.NOT_SIMULATED
-    if not (0 < kind < FAULT_SLOTS and math.isfinite(amount)):
+    if not (0 < kind < KINDS and math.isfinite(amount)):
         return Reply.UNKNOWN
-    core.injected[kind] = block.injected[kind] = amount
-    publish_event(block_address, core.tick, EventKind.FAULT, kind, amount, 0.0)
+    held = amount_within(kind, amount)
+    core.injected[kind] = block.injected[kind] = held
+    publish_event(block_address, core.tick, EventKind.FAULT, kind, held, 0.0)
     return Reply.ACCEPTED
 
 
 @kernel
 def _clear_faults(core: Record, block: Record, block_address: int) -> int:
-    for kind in range(FAULT_SLOTS):
+    for kind in range(KINDS):
         if core.injected[kind] != 0.0:
             _inject(core, block, block_address, kind, 0.0)
     return Reply.ACCEPTED

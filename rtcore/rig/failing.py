@@ -10,7 +10,7 @@ import numpy as np
 
 from rtcore.compiled import Array, Record, kernel
 from rtcore.io import FAULT_SLOTS
-from rtcore.rig.faults import HIGHEST, LOWEST, Fault
+from rtcore.rig.faults import KINDS, Fault, amount_within
 from rtcore.rig.fluid import tabulate_fluid
 from rtcore.rig.plant import (
     DY_F,
@@ -32,7 +32,6 @@ from rtcore.rig.plant import (
 )
 from rtcore.rig.sensors import quantise
 
-KINDS = len(Fault) + 1
 AIRY = 0.05  # free air in the oil, share of volume
 
 # Parameters of the plant that faults change.
@@ -76,7 +75,7 @@ def take_faults(world: Record, injected: Array) -> None:
             continue
         failing.present += int(asked != 0.0) - int(failing.asked[kind] != 0.0)
         failing.asked[kind] = asked
-        held = min(max(asked, LOWEST[kind]), HIGHEST[kind]) if asked != 0.0 else 0.0
+        held = amount_within(kind, asked)
         failing.amounts[kind] = held
         _change(world, kind, held)
 

@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rtcore.compiled import kernel
+
 
 class Fault(IntEnum):
     """What can be wrong."""
@@ -141,6 +143,13 @@ FAULTS = {
 }
 
 # By `Fault`: what no rig goes beyond, whatever it is asked for.
-LOWEST, HIGHEST = np.zeros(len(Fault) + 1), np.zeros(len(Fault) + 1)
+KINDS = len(Fault) + 1
+LOWEST, HIGHEST = np.zeros(KINDS), np.zeros(KINDS)
 for _fault, _kind in FAULTS.items():
     LOWEST[_fault], HIGHEST[_fault] = _kind.low, _kind.high
+
+
+@kernel
+def amount_within(kind: int, asked: float) -> float:
+    """The amount of a fault that is in force where this one is asked for; 0 stays 0."""
+    return min(max(asked, LOWEST[kind]), HIGHEST[kind]) if asked != 0.0 else 0.0

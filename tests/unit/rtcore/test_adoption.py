@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rtcore.codes import Opcode, Reply
+from rtcore.interlocks import Action, Form, Quantity
 from rtcore.memory.commands import post
 from rtcore.modes import Mode
 from rtcore.virtual import Virtual
@@ -13,6 +14,7 @@ from tests.unit.rtcore.programs import (
     HOLD_ROW,
     PERIOD_S,
     Row,
+    detector,
     gains,
     interlocks,
     program,
@@ -152,3 +154,20 @@ def test_a_stop_needs_neither_lease_nor_haste(running: Virtual) -> None:
     running.advance(2)
     assert reply_to(running, stop) == Reply.ACCEPTED
     assert running.mode == Mode.STOPPING
+
+
+def test_a_new_table_knows_no_rate_of_the_quantity_before() -> None:
+    """Pascals a second of the one are not metres a second of the other."""
+    slow = {"form": Form.RATE, "smoothing_s": 1.0, "armed_modes": 0x7F}
+    rig = make(detector(Quantity.SUPPLY_PRESSURE_PA, 1e12, Action.INDICATE, **slow))
+    rig.bring_to_ready()
+    rig.command(Opcode.SHUTDOWN)
+    rig.advance(400)
+    assert abs(rig.io.core["trends"][0]["rate_1_s"]) > 1e6
+    rig.block.fields["interlocks"][0] = interlocks(
+        detector(Quantity.DISPLACEMENT_M, 1.0, Action.SHUTDOWN, **slow)
+    )
+    assert rig.command(Opcode.ADOPT_INTERLOCKS, 0) == Reply.ACCEPTED
+    rig.advance(4)
+    assert abs(rig.block.fields["detector_values"][0]) < 1.0
+    assert rig.io.core["trips"] == 0

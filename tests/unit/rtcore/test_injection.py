@@ -61,3 +61,28 @@ def test_nothing_becomes_infinite_whatever_breaks_while_the_rig_is_ready(
         rig.advance(2000)
         assert np.all(np.isfinite(rig.states))
         assert rig.mode in (Mode.READY, Mode.TRIPPED)
+
+
+@pytest.mark.parametrize(
+    ("fault", "asked", "held"),
+    [
+        (Fault.VALVE_NULL_SHIFT, 1.0, 2e-4),
+        (Fault.LOAD_CELL_DRIFT, -1e9, -20e3),
+        (Fault.PUMP_LOSS, 1e-300, 1.0),
+    ],
+)
+def test_what_is_told_of_a_fault_is_what_the_rig_has(
+    rig: Virtual, fault: Fault, asked: float, held: float
+) -> None:
+    events = event_reader(rig.block)
+    assert rig.command(Opcode.INJECT_FAULT, fault, asked) is Reply.ACCEPTED
+    assert rig.block.fields["injected"][fault] == held
+    assert [e["value"] for e in events.read().records if e["kind"] == EventKind.FAULT] == [held]
+    rig.advance(1)
+    assert rig.io.world["failing"]["amounts"][fault] == held
+
+
+@pytest.mark.parametrize("kind", [-1, 0, len(Fault) + 1, 31, 2**31])
+def test_a_fault_that_no_rig_knows_is_refused(rig: Virtual, kind: int) -> None:
+    assert rig.command(Opcode.INJECT_FAULT, kind, 1.0) is Reply.UNKNOWN
+    assert not np.any(rig.block.fields["injected"])
