@@ -2107,7 +2107,7 @@ export interface components {
              * Quantity
              * @enum {string}
              */
-            quantity: "force_n" | "force_error_n" | "displacement_m" | "velocity_m_s" | "supply_pressure_pa" | "load_cell" | "app_silence_s" | "deadlines_missed" | "lvt" | "lvdt" | "pressure_sensor" | "force_error_relative" | "underpeak" | "valve_command" | "valve_saturation" | "cycles" | "twin_residual_n" | "twin_goodness" | "unrecorded_s" | "chain_open" | "displacement_error_m" | "pressure_1_pa" | "pressure_2_pa";
+            quantity: "force_n" | "force_error_n" | "displacement_m" | "velocity_m_s" | "supply_pressure_pa" | "load_cell" | "app_silence_s" | "deadlines_missed" | "lvt" | "lvdt" | "pressure_sensor" | "force_error_relative" | "underpeak" | "valve_command" | "valve_saturation" | "cycles" | "twin_residual_n" | "twin_goodness" | "unrecorded_s" | "chain_open" | "displacement_error_m" | "pressure_1_pa" | "pressure_2_pa" | "twin_spool";
             /**
              * Smoothing S
              * @description of the rate
@@ -3547,7 +3547,7 @@ export interface components {
          * @description What a detector may watch. See `rtcore.quantities` for those that are derived.
          * @enum {integer}
          */
-        Quantity: 0 | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 | 13 | 14 | 15 | 16 | 17 | 18 | 19 | 20 | 21 | 22;
+        Quantity: 0 | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 | 13 | 14 | 15 | 16 | 17 | 18 | 19 | 20 | 21 | 22 | 23;
         /**
          * ReactionOut
          * @description What must follow; without `first_outs` nothing may take the load off.

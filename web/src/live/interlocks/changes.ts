@@ -10,7 +10,7 @@ import {
   FORMS,
   persistenceText,
   shownQuantity,
-  WATCHED,
+  watchedOf,
 } from "./words";
 
 export interface Change {
@@ -23,7 +23,7 @@ export interface Change {
 }
 
 const FIELDS: { readonly [Key in keyof Omit<Detector, "name">]: readonly [string, (detector: Detector) => string] } = {
-  quantity: ["watches", ({ quantity }) => WATCHED[quantity].label],
+  quantity: ["watches", ({ quantity }) => watchedOf(quantity).label],
   form: ["judges", ({ form }) => FORMS[form]],
   comparison: ["is violated", ({ comparison }) => COMPARISONS[comparison]],
   low: ["lower limit", (detector) => limit(detector, detector.low)],

@@ -1,12 +1,11 @@
 // The table of detectors as the server says and takes it.
 
+import type { components } from "../../gen/api";
+
 export type { Fault } from "../tests/types";
 
-export type QuantityName =
-  | ("force_n" | "force_error_n" | "displacement_m" | "velocity_m_s" | "supply_pressure_pa" | "load_cell")
-  | ("app_silence_s" | "deadlines_missed" | "lvt" | "lvdt" | "pressure_sensor" | "force_error_relative")
-  | ("underpeak" | "valve_command" | "valve_saturation" | "cycles" | "twin_residual_n" | "twin_goodness")
-  | ("unrecorded_s" | "chain_open" | "displacement_error_m" | "pressure_1_pa" | "pressure_2_pa" | "twin_spool");
+type Schemas = components["schemas"];
+export type QuantityName = Schemas["Detector"]["quantity"];
 export type Form = "value" | "rate" | "look_ahead";
 export type Comparison = "magnitude_above" | "above" | "below" | "outside";
 export type Action = "indicate" | "hold" | "stop" | "shutdown";

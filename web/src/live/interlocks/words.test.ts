@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { aDetector, aReading } from "./aDetector";
+import type { Detector } from "./types";
 import { stateText } from "./states";
 import { ALL_MODES, armedText, limitText, persistenceText, valueText, watches } from "./words";
 
@@ -31,6 +32,12 @@ describe("a detector in words", () => {
     expect(plain(watches(aDetector({ form: "look_ahead", horizon_s: 0.02, quantity: "displacement_m" })))).toBe(
       "Displacement in 20 ms",
     );
+  });
+
+  it("has words even for what only a newer server watches", () => {
+    const newer = aDetector({ quantity: "oil_level_m" as Detector["quantity"], threshold: 0.1 });
+    expect(watches(newer)).toBe("Oil level");
+    expect(plain(valueText(newer, 0.05))).toBe("50.00 mm");
   });
 
   it("says when it acts and is armed", () => {

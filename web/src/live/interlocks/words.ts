@@ -1,5 +1,6 @@
 // What a detector watches, in words and in the units that people read. Pure.
 
+import { spoken } from "../../quantities";
 import {
   figure,
   FORCE,
@@ -7,6 +8,7 @@ import {
   NOTHING,
   PERCENT,
   PRESSURE,
+  quantityOf,
   RATIO,
   SPEED,
   TIME,
@@ -54,6 +56,10 @@ export const WATCHED: Readonly<Record<QuantityName, Watched>> = {
   pressure_2_pa: { label: "Pressure in chamber 2", quantity: PRESSURE },
 };
 
+/** A server that is newer than this page may watch what it has no word for. */
+export const watchedOf = (quantity: QuantityName): Watched =>
+  Object.hasOwn(WATCHED, quantity) ? WATCHED[quantity] : { label: spoken(quantity), quantity: quantityOf(quantity) };
+
 export const FORMS: Readonly<Record<Form, string>> = {
   value: "its value",
   rate: "its rate",
@@ -86,18 +92,18 @@ type Measured = Pick<Detector, "quantity" | "form">;
 
 /** How the value of a detector is written: a rate is one a second. */
 export function shownQuantity({ quantity, form }: Measured): Quantity {
-  const { quantity: plain } = WATCHED[quantity];
+  const { quantity: plain } = watchedOf(quantity);
   const digits = Math.max(0, plain.digits - 2);
   return form === "rate" ? { ...plain, digits, symbol: `${plain.symbol || "1"}/s` } : plain;
 }
 
 /** The states that a detector's value may be; null where it is a figure. */
 export const statesOf = ({ quantity, form }: Measured): readonly string[] | null =>
-  (form === "value" && WATCHED[quantity].states) || null;
+  (form === "value" && watchedOf(quantity).states) || null;
 
 /** `Force`, `Rate of force`, `Displacement in 0.02 s`. */
 export function watches({ quantity, form, horizon_s }: Measured & Pick<Detector, "horizon_s">): string {
-  const { label } = WATCHED[quantity];
+  const { label } = watchedOf(quantity);
   if (form === "rate") return `Rate of ${lower(label)}`;
   return form === "look_ahead" ? `${label} in ${persistenceText(horizon_s ?? 0)}` : label;
 }
