@@ -1,6 +1,5 @@
 """The application, and `serve`: bind, print the address, run, and end with the load off."""
 
-import logging
 import signal
 import sys
 from collections.abc import AsyncIterator
@@ -16,6 +15,7 @@ from fastapi.responses import HTMLResponse
 from app.access.credentials_router import router as credentials_router
 from app.access.door import Door
 from app.access.pace import Paced
+from app.access.refused import note_refused
 from app.access.router import router as auth_router
 from app.access.sign_in_page import router as sign_in_router
 from app.access.users_router import router as users_router
@@ -34,6 +34,7 @@ from app.health import router as health_router
 from app.histories.router import router as histories_router
 from app.interlocks.router import router as interlocks_router
 from app.live.router import router as live_router
+from app.logs import begin_log
 from app.no_nul import NoNul
 from app.prediction.router import router as predictions_router
 from app.presets import Presets, load_presets
@@ -111,7 +112,7 @@ def create_app(
     app.add_middleware(Paced, never=_STOPS)
     stop_port = None if stop_door is None else stop_door.port
     app.add_middleware(Guard, hosts=hosts, stop_port=stop_port)
-    install_handlers(app)
+    install_handlers(app, note_refused)
     for router in (
         health_router,
         rig_router,
@@ -168,9 +169,7 @@ def serve(
     """
     given: dict[str, Any] = {"host": host, "port": port, "data_dir": data_dir, **more}
     settings = Settings(**{name: value for name, value in given.items() if value is not None})
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(levelname)-7s %(message)s")
-    for chatty in ("uvicorn.error", "alembic"):
-        logging.getLogger(chatty).setLevel(logging.WARNING)
+    begin_log()
     for number in (signal.SIGTERM, signal.SIGINT):
         # Uvicorn has its own handlers while it runs, and raises what it caught again afterwards.
         signal.signal(number, lambda *_: None)

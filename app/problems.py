@@ -1,7 +1,7 @@
 """Problem documents (RFC 9457): the one table from refusal codes to HTTP statuses."""
 
 import logging
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 from fastapi import FastAPI, Request
@@ -194,11 +194,14 @@ def _http_code(status: int) -> Code:
     return known.get(status, Code.INVALID_REQUEST if status < 500 else Code.INTERNAL)
 
 
-def install_handlers(app: FastAPI) -> None:
-    """Answer every failure of `app` with a problem document."""
+def install_handlers(
+    app: FastAPI, tell: Callable[[Request, Refusal], None] = lambda request, refusal: None
+) -> None:
+    """Answer every failure of `app` with a problem document. `tell` hears of every refusal."""
 
     async def refused(request: Request, error: Exception) -> JSONResponse:
         assert isinstance(error, Refused)
+        tell(request, error.refusal)
         return problem(error.refusal)
 
     async def invalid(request: Request, error: Exception) -> JSONResponse:

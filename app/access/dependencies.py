@@ -9,6 +9,7 @@ from fastapi.requests import HTTPConnection
 from app.access.door import principal_of
 from app.access.principal import Principal, Role, lacking
 from app.access.refusals import NOT_SIGNED_IN
+from app.access.refused import ROLE_ASKED
 from app.access.service import Access
 from app.dependencies import ThisConsole
 from app.problems import granted
@@ -21,6 +22,7 @@ def require(role: Role) -> Callable[[HTTPConnection], Awaitable[Principal]]:
         found = principal_of(connection.scope)
         if found is None:
             return granted(NOT_SIGNED_IN)
+        setattr(connection.state, ROLE_ASKED, role)
         return granted(lacking(found, role) or found)
 
     who.requires = role  # type: ignore[attr-defined]  # for whoever lists what is asked where

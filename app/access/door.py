@@ -17,7 +17,7 @@ from app.problems import problem
 
 SIGN_IN = "/api/v1/auth/login"
 NOT_IN = 4401  # close code of a socket whose credential is not good, or no longer
-_SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
+SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 _NO_ANSWER = Refusal(
     Code.DATABASE_UNAVAILABLE, "The database does not answer: try again in a moment"
 )
@@ -75,7 +75,7 @@ async def _who(scope: Scope) -> Principal | Refusal:
     if isinstance(brought, Refusal):
         return brought
     access = cast(Access, scope["app"].state.console.access)
-    changes = scope["type"] == "http" and scope["method"] not in _SAFE
+    changes = scope["type"] == "http" and scope["method"] not in SAFE
     try:
         return await access.identity.who(brought, changes=changes)
     except SQLAlchemyError as error:
