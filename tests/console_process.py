@@ -1,5 +1,6 @@
 """The console as a process of its own, with a data directory of its own: for tests of the real thing."""
 
+import contextlib
 import json
 import os
 import re
@@ -26,7 +27,7 @@ from app.errors import Code, Refusal
 from app.interlocks.defaults import default_interlocks
 from app.link.paths import block_path
 from app.settings import Settings
-from rtcore.memory.segment import attach_block, loop_is_running
+from rtcore.memory.segment import attach_block
 
 PATIENCE_S = 110.0  # a cold start compiles the loop's kernels
 SERVE = "from app.main import serve; serve('127.0.0.1', 0, None)"
@@ -51,6 +52,17 @@ def patient_interlocks(folder: Path) -> Path:
     path = folder / "interlocks.json"
     path.write_text(json.dumps(table))
     return path
+
+
+def loops_on(block: Path) -> list[int]:
+    """The loop processes that were started on a block, those that have not got as far as its lock too."""
+    wanted = b"\0--block\0" + os.fsencode(block) + b"\0"
+    found = []
+    for place in Path("/proc").glob("[0-9]*"):
+        with contextlib.suppress(OSError):  # it has ended meanwhile
+            if wanted in (place / "cmdline").read_bytes():
+                found.append(int(place.name))
+    return found
 
 
 def bearer(token: str) -> dict[str, str]:
@@ -180,6 +192,12 @@ class ConsoleProcess:
         return True
 
     @property
+    def pid(self) -> int:
+        """The process id of the app."""
+        assert self._process is not None
+        return self._process.pid
+
+    @property
     def loop_pid(self) -> int:
         """The process id of the loop."""
         return int(attach_block(self.block).fields["loop_pid"])
@@ -208,9 +226,11 @@ class ConsoleProcess:
         """Leave nothing behind, whatever the test did."""
         if self._process is not None and self._process.poll() is None:
             self.kill()
-        if loop_is_running(self.block):
-            os.kill(self.loop_pid, signal.SIGKILL)
-            wait_for(lambda: not loop_is_running(self.block), "the end of the loop")
+        # One that is still starting holds no lock and has no block, only its command line.
+        for pid in loops_on(self.block):
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        wait_for(lambda: not loops_on(self.block), "the end of the loop")
         self.block.unlink(missing_ok=True)
         self.block.with_suffix(".lock").unlink(missing_ok=True)
         shutil.rmtree(self.data, ignore_errors=True)
