@@ -7,7 +7,7 @@ from app.access.book import LONGEST, Book
 from app.access.keys import digest, new_key
 from app.access.models import SignedIn
 from app.access.principal import Principal, Role
-from app.access.refusals import unknown_session
+from app.access.refusals import ONLY_SIGNED_IN, unknown_session
 from app.access.schemas import SessionOut
 from app.audit.actor import Actor, acting
 from app.audit.record import record
@@ -51,10 +51,12 @@ class Sessions:
         return [self._shown(one, who) for one in seen]
 
     def end(self, session_id: int, who: Principal) -> Refusal | None:
-        """End a session, one's own or for an admin anybody's."""
+        """End a session, one's own or for an admin anybody's. No token that leaked signs its owner out."""
         found = next((one for one in self._book.sessions() if one.id == session_id), None)
         if found is None or not _may_see(who, found):
             return unknown_session(session_id)
+        if who.kind == "token" and who.role < Role.ADMIN:
+            return ONLY_SIGNED_IN
         with self._book.writing() as session:
             repository.end_session(session, session_id)
             record(session, entries.session_ended(found))

@@ -64,12 +64,17 @@ class Tokens:
         return TokenMade(token=key, **_plain(row, owner).model_dump())
 
     def revoke(self, token_id: int, who: Principal | None = None) -> Refusal | None:
-        """End a token: of one's own, of anybody's for an admin or the command line."""
+        """End a token: of one's own, of anybody's for an admin or the command line.
+
+        A token that is no admin's ends itself only: one that leaked is to stop no other work.
+        """
         with self._book.writing() as session:
             row = repository.token(session, token_id)
             unseen = row is None or (who is not None and not _may_see(who, row))
             if row is None or unseen or row.revoked_at is not None:
                 return unknown_token(token_id)
+            if who is not None and who.kind == "token" and not _may_end(who, token_id):
+                return ONLY_SIGNED_IN
             row.revoked_at = self._book.now()
             record(session, entries.token_revoked(row))
             return None
@@ -81,6 +86,10 @@ class Tokens:
 
 def _may_see(who: Principal, token: ApiToken) -> bool:
     return who.role >= Role.ADMIN or token.user_id == who.user_id
+
+
+def _may_end(who: Principal, token_id: int) -> bool:
+    return who.role >= Role.ADMIN or who.id == f"token:{token_id}"
 
 
 def _plain(token: ApiToken, owner: str) -> TokenOut:

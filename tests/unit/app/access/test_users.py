@@ -173,3 +173,21 @@ def test_what_a_request_brings(
 ) -> None:
     found = credentials_in(headers, cookies, query, COOKIE)
     assert (code(found) or found) == expected
+
+
+def test_a_token_that_leaked_ends_itself_and_nothing_else_of_its_owners(desk: Desk) -> None:
+    user = desk.enter("kl", "engineer")
+    desk.sessions.begin(user.id)
+    (session,) = desk.book.sessions()
+    leaked, other = (
+        desk.tokens.make_for(user.id, TokenCreate(name=name, scope=Scope.READ))
+        for name in ("leaked", "other")
+    )
+    assert isinstance(leaked, TokenMade)
+    assert isinstance(other, TokenMade)
+    thief = Principal(f"token:{leaked.id}", "kl (leaked)", Role.VIEWER, "token", user.id)
+    assert code(desk.sessions.end(session.id, thief)) is Code.NOT_ALLOWED
+    assert code(desk.tokens.revoke(other.id, thief)) is Code.NOT_ALLOWED
+    assert [one.id for one in desk.book.sessions()] == [session.id]
+    assert [one.revoked_at for one in desk.book.tokens()] == [None, None]
+    assert desk.tokens.revoke(leaked.id, thief) is None
