@@ -1,6 +1,7 @@
 """The drills: which can be given now, giving one, taking faults back, and the records of those given."""
 
 import logging
+import time
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
@@ -37,6 +38,7 @@ from rtcore.codes import Opcode
 from rtcore.modes import Mode
 
 _log = logging.getLogger(__name__)
+_ATTEMPTS, _AGAIN_S = 20, 0.25
 _CRASHED = "The console ended in the middle of it"
 _LOST = Refusal(
     Code.LOOP_LOST, "The loop process does not run: wait until it is back, then press Reset"
@@ -195,6 +197,8 @@ class Drills:
         number = self._book.enter(row)
         answer = self._link.ask(Opcode.INJECT_FAULT, drill.fault, value=amount, lease=lease)
         if isinstance(answer, Refusal):
+            if answer.code is Code.LOOP_SILENT:
+                self._take_back()  # it may have taken the fault, and said so too late
             self._book.withdraw(number)
             return answer
         watch = Watch(
@@ -225,9 +229,14 @@ class Drills:
             self._watch = None
 
     def _take_back(self) -> None:
-        answer = self._link.ask(Opcode.CLEAR_FAULTS)
-        if isinstance(answer, Refusal):
+        """Clear all faults. Tried again: the loop may be stalled, or command just changing hands."""
+        for _ in range(_ATTEMPTS):
+            answer = self._link.ask(Opcode.CLEAR_FAULTS)
+            life = self._link.life
+            if not isinstance(answer, Refusal) or life is None or life.ended:
+                return  # a loop that has ended takes its faults along
             _log.warning("the faults were not taken back: %s", answer.detail)
+            time.sleep(_AGAIN_S)
 
 
 def _injected(life: Life | None) -> dict[str, float]:
