@@ -24,6 +24,7 @@ from app.authority.router import router as lease_router
 from app.body_limit import BodyLimit
 from app.catalogue.router import router as tests_router
 from app.catalogue.texts_router import router as texts_router
+from app.connections import BoundedProtocol
 from app.described import Described
 from app.docs_page import docs_page
 from app.drills.router import router as drills_router
@@ -200,7 +201,7 @@ def _uvicorn_config(app: FastAPI, settings: Settings) -> uvicorn.Config:
         app,
         ssl_certfile=settings.tls_cert,
         ssl_keyfile=settings.tls_key,
-        http="h11",  # it bounds the head of a request; httptools would read one without end
+        http=BoundedProtocol,  # h11 bounds the head of a request; httptools would read one without end
         log_config=None,
         access_log=False,
         ws_per_message_deflate=False,  # noisy float32 shrinks to 93 % for 260 µs a frame
