@@ -82,3 +82,26 @@ def test_only_engineers_look(console: ConsoleProcess) -> None:
 
 def test_no_secret_is_in_it(console: ConsoleProcess) -> None:
     assert console.token not in json.dumps(entries(console, limit=200))
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body"),
+    [
+        ("PUT", "/interlocks", {}),
+        ("POST", "/drills", {"fault": "pump_loss"}),
+        ("POST", "/drills/clear", {}),
+        ("GET", "/audit", None),
+        ("POST", "/lease", {"reason": "Mine", "take_over": True}),
+    ],
+)
+def test_what_somebody_may_not_is_in_the_audit(
+    console: ConsoleProcess, method: str, path: str, body: dict[str, Any] | None
+) -> None:
+    console.take_command()
+    refused = console.as_role(Role.OPERATOR).request(method, path, json=body)
+    assert refused.is_client_error, refused.text
+    asked = f"{method} /api/v1{path}"
+    (row,) = wait_for(lambda: entries(console, target=asked, action="requests.refused"), asked)
+    assert row["role"] == "operator"
+    assert row["outcome"] == f"refused: {refused.json()['code']}"
+    assert row["why"] == refused.json()["detail"]

@@ -23,6 +23,7 @@ VIEWER = {  # what computes and changes nothing, what stops the rig, and what is
 }
 ENGINEER = {
     *("changeInterlocks", "removeFirstOut", "changeRetention", "listAudit", "verifyAudit"),
+    *("giveDrill", "clearDrills"),
 }
 ADMIN = {"listUsers", "addUser", "changeUser", "removeUser", "linkUser"}
 
