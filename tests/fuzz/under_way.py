@@ -28,8 +28,7 @@ class UnderWay:
 
     def __init__(self, console: ConsoleProcess, test_id: str, run_id: int) -> None:
         self.console, self.test_id, self.run_id = console, test_id, run_id
-        self.holder = console.token
-        self.tokens = {role: console.new_token(role) for role in Role}  # none is the holder's
+        self.tokens = {role: console.new_token(role) for role in Role}  # none is in command
         self.asked: Counter[tuple[Role | None, int]] = Counter()  # by role and what was answered
         self.loop = console.loop_pid
         self.before = self.timing()
