@@ -54,8 +54,8 @@ export class TableEditor {
   async reread(): Promise<void> {
     try {
       const now = await getInterlocks();
-      if (this.editing && now.revision !== this.base?.revision) this.conflict = now;
-      else this.base = now;
+      if (!this.editing) this.base = now;
+      else if (now.revision !== (this.conflict ?? this.base)?.revision) this.conflict = now;
       this.failure = "";
     } catch (error) {
       this.failure = textOf(error);

@@ -23,7 +23,8 @@ export class Polling {
       while (!ended) {
         const asked_ms = performance.now();
         if (document.visibilityState === "visible") await this.ask();
-        await rest(Math.max(0, asked_ms + EVERY_MS - performance.now()));
+        const spent_ms = performance.now() - asked_ms;
+        await rest(Math.max(EVERY_MS - spent_ms, spent_ms)); // a slow server is given time
       }
     };
     const watch = window.setInterval(() => (this.old = performance.now() - this.answered_ms > OLD_MS), EVERY_MS);
