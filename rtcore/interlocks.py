@@ -110,6 +110,7 @@ def armed_in(*modes: Mode) -> int:
 _QUANTITIES, _FORMS, _COMPARISONS, _ACTIONS = (
     len(members) for members in (Quantity, Form, Comparison, Action)
 )
+_HAS_LOW = np.array([comparison is Comparison.OUTSIDE for comparison in Comparison])
 NO_ACTION = -1
 
 
@@ -125,29 +126,33 @@ def judged_value(detector: Record, trend: Record, value: float, period_s: float)
         rate = 0.0
     share = period_s / max(detector.smoothing_s, period_s)
     trend.rate_1_s += share * (rate - trend.rate_1_s)
-    if detector.form == Form.VALUE or not math.isfinite(value):
+    if not math.isfinite(value):
         return value
     if detector.form == Form.RATE:
         return trend.rate_1_s
-    return value + detector.horizon_s * trend.rate_1_s
+    if detector.form == Form.LOOK_AHEAD:
+        return value + detector.horizon_s * trend.rate_1_s
+    return value
 
 
 @kernel
 def is_violated(detector: Record, value: float) -> bool:
-    """Written so that a NaN, on either side, is a violation."""
+    """Written so that a NaN, on either side, is a violation, and a comparison that nobody knows is one."""
     if detector.comparison == Comparison.ABOVE:
         return not (value <= detector.threshold)
     if detector.comparison == Comparison.BELOW:
         return not (value >= detector.threshold)
     if detector.comparison == Comparison.OUTSIDE:
         return not (detector.low <= value <= detector.threshold)
-    return not (abs(value) <= detector.threshold)
+    if detector.comparison == Comparison.MAGNITUDE_ABOVE:
+        return not (abs(value) <= detector.threshold)
+    return True
 
 
 @kernel
 def check_detector(detector: Record, value: float, mode: int, violated_ticks: int) -> int:
     """Ticks for which a detector has been violated, this one included; 0 where it is content or not armed."""
-    armed = detector.enabled != 0 and (detector.armed_modes >> mode) & 1 == 1
+    armed = detector.enabled and (detector.armed_modes >> mode) & 1
     if armed and is_violated(detector, value):
         return violated_ticks + 1
     return 0
@@ -156,7 +161,7 @@ def check_detector(detector: Record, value: float, mode: int, violated_ticks: in
 @kernel
 def latches(detector: Record) -> bool:
     """Whether a trip stays until a reset. What takes the load off always does."""
-    return detector.action >= Action.STOP or detector.latching != 0
+    return detector.action >= Action.STOP or bool(detector.latching)
 
 
 @kernel
@@ -164,10 +169,10 @@ def interlocks_are_valid(table: Record) -> bool:
     """Whether the loop may adopt a table: within the bank, every detector meaningful."""
     if not 1 <= table.count <= MAX_DETECTORS:
         return False
-    meaningless = 0
+    valid = True
     for i in range(table.count):
-        meaningless += not detector_is_valid(table.detectors[i])
-    return meaningless == 0
+        valid = valid and detector_is_valid(table.detectors[i])
+    return valid
 
 
 @kernel
@@ -176,7 +181,9 @@ def detector_is_valid(d: Record) -> bool:
     known = 0 <= d.quantity < _QUANTITIES and 0 <= d.form < _FORMS
     if not (known and 0 <= d.comparison < _COMPARISONS and 0 <= d.action < _ACTIONS):
         return False
-    if d.comparison == Comparison.OUTSIDE and not (-math.inf < d.low < d.threshold):
+    if _HAS_LOW[d.comparison] and not (math.isfinite(d.low) and d.low < d.threshold):
         return False
-    timed = 0.0 <= d.horizon_s < math.inf and 0.0 <= d.smoothing_s < math.inf
-    return timed and d.persistence_ticks >= 1 and math.isfinite(d.threshold)
+    for seconds in (d.horizon_s, d.smoothing_s):
+        if not (math.isfinite(seconds) and seconds >= 0.0):
+            return False
+    return d.persistence_ticks >= 1 and math.isfinite(d.threshold)

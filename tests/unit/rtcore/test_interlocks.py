@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable
 from enum import IntEnum
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from hypothesis import given
@@ -14,6 +14,7 @@ from rtcore import interlocks as detectors_of_loop
 from rtcore import modes
 from rtcore.interlocks import (
     DETECTOR,
+    INTERLOCKS,
     MAX_DETECTORS,
     NO_ACTION,
     TREND,
@@ -65,6 +66,7 @@ def test_infinity_is_a_violation() -> None:
 def test_a_detector_counts_only_where_it_is_armed_and_enabled() -> None:
     record = one(Comparison.ABOVE, 1.0)
     assert check_detector(record, 2.0, Mode.RUNNING, 4) == 5
+    assert check_detector(record, 2.0, Mode.RUNNING, 5) == 6
     assert check_detector(record, 2.0, Mode.READY, 4) == 0
     assert check_detector(record, 0.5, Mode.RUNNING, 4) == 0
     record["enabled"] = 0
@@ -188,7 +190,32 @@ def judged(form: Form, values: Iterable[float], **other: float) -> list[float]:
 @given(start=finite, slope=st.floats(-1e6, 1e6))
 def test_a_value_is_compared_as_it_is(start: float, slope: float) -> None:
     ramp = [start + slope * k for k in range(5)]
-    assert judged(Form.VALUE, ramp) == ramp
+    assert judged(Form.VALUE, ramp, horizon_s=1.0) == ramp
+
+
+def test_a_form_that_nobody_knows_is_the_value() -> None:
+    ramp = [0.0, 1.0, 2.0]
+    for unknown in (-1, len(Form)):
+        assert judged(cast(Form, unknown), ramp, horizon_s=1.0) == ramp
+
+
+@pytest.mark.parametrize("unknown", [-1, len(Comparison)])
+def test_a_comparison_that_nobody_knows_is_a_violation(unknown: int) -> None:
+    record = one(Comparison.OUTSIDE, 10.0)
+    record["low"], record["comparison"] = -10.0, unknown
+    assert is_violated(record, 0.0)
+
+
+def test_a_magnitude_has_no_lower_end() -> None:
+    record = one(Comparison.MAGNITUDE_ABOVE, 10.0)
+    record["low"] = 5.0
+    assert not is_violated(record, -7.0)
+    assert not is_violated(record, 3.0)
+
+
+def test_records_of_the_shared_block_are_laid_out_as_in_c() -> None:
+    for dtype in (DETECTOR, INTERLOCKS, TREND):
+        assert dtype.isalignedstruct
 
 
 @given(slope=st.floats(-1e7, 1e7))

@@ -19,8 +19,8 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> Calls:
     made: Calls = []
 
     def noted(name: str, code: int = 0) -> Any:
-        def call(*arguments: Any) -> int:
-            made.append((name, *arguments))
+        def call(*arguments: Any, **named: Any) -> int:
+            made.append((name, *arguments, *(v for v in named.values() if v is not None)))
             return code
 
         return call
