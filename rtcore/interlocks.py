@@ -110,7 +110,8 @@ def armed_in(*modes: Mode) -> int:
 _QUANTITIES, _FORMS, _COMPARISONS, _ACTIONS = (
     len(members) for members in (Quantity, Form, Comparison, Action)
 )
-_HAS_LOW = np.array([comparison is Comparison.OUTSIDE for comparison in Comparison])
+_HAS_LOW = np.zeros(len(Comparison), np.bool_)
+_HAS_LOW[Comparison.OUTSIDE] = True
 NO_ACTION = -1
 
 

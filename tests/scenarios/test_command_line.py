@@ -201,7 +201,10 @@ def test_bad_options_end_with_2_before_anything_runs(
 def test_the_margins_and_the_prediction_s_verdict_are_printed(test_file: Path) -> None:
     printed = _run("simulate", test_file).stdout
     assert "supply_pressure" in printed
-    assert "Only the live rig can tell: valve_spool, twin_residual, twin_goodness, app_silence" in printed
+    assert (
+        "Only the live rig can tell: valve_spool, twin_residual, twin_goodness, app_silence"
+        in printed
+    )
     assert "Prediction: clear" in printed
     prediction = _json(_run("simulate", test_file, "--json"))["prediction"]
     assert prediction["verdict"] == "clear"
