@@ -101,7 +101,7 @@ def test_what_somebody_may_not_is_in_the_audit(
     refused = console.as_role(Role.OPERATOR).request(method, path, json=body)
     assert refused.is_client_error, refused.text
     asked = f"{method} /api/v1{path}"
-    (row,) = wait_for(lambda: entries(console, target=asked, action="requests.refused"), asked)
+    row = wait_for(lambda: entries(console, target=asked, action="requests.refused"), asked)[0]
     assert row["role"] == "operator"
     assert row["outcome"] == f"refused: {refused.json()['code']}"
     assert row["why"] == refused.json()["detail"]

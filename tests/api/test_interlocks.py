@@ -66,9 +66,10 @@ def test_what_is_wrong_is_told_by_its_path_and_changes_nothing(console: ConsoleP
     wild = changed(now, "force", threshold=61e3, latching=False)
     answer = console.http.put("/interlocks", json=wild)
     assert refused(answer) == (422, "invalid_request")
+    place = [d["name"] for d in now["detectors"]].index("force")
     assert [e["path"] for e in answer.json()["errors"]] == [
-        "detectors[0].latching",
-        "detectors[0].threshold",
+        f"detectors[{place}].latching",
+        f"detectors[{place}].threshold",
     ]
     weak = changed(now, "app_silence", enabled=False)
     assert refused(console.http.put("/interlocks", json=weak)) == (409, "interlocks_weakened")
@@ -82,7 +83,7 @@ def test_a_check_adopts_nothing(console: ConsoleProcess) -> None:
     asked = {key: now[key] for key in ("detectors", "knowingly_weaker")}
     fine = console.http.post("/interlocks/check", json=asked).json()
     assert (fine["valid"], fine["errors"], fine["difference"]["detectors"]) == (True, [], [])
-    without = {"detectors": now["detectors"][1:]}
+    without = {"detectors": [d for d in now["detectors"] if d["name"] != "force"]}
     weak = console.http.post("/interlocks/check", json=without).json()
     assert not weak["valid"]
     assert {w["detector"] for w in weak["weakened"]} == {"force", "deadlines_missed"}

@@ -271,6 +271,7 @@ class Campaign:
             config.attributes["connection"] = connection
             if (_revision(path) or "") > BEFORE:
                 command.downgrade(config, BEFORE)
+                self.console.token = ""  # that console knew neither users nor tokens
         database.close()
 
     # ---- the account ----
