@@ -210,6 +210,7 @@ class Campaign:
             mode = self.console.mode()
             if mode == "tripped":
                 self.console.command("reset")
+                time.sleep(0.3)  # or it counts as held down
             elif mode == "off":
                 self.console.command("pressurise")
             return mode == "ready" and self.console.status()["commands"]["start"] is None
