@@ -12,39 +12,19 @@ from anyio.to_thread import run_sync
 from fastapi import FastAPI
 from fastapi.responses import HTMLResponse
 
-from app.access.credentials_router import router as credentials_router
 from app.access.door import Door
 from app.access.pace import Paced
 from app.access.refused import note_refused
-from app.access.router import router as auth_router
-from app.access.sign_in_page import router as sign_in_router
-from app.access.users_router import router as users_router
-from app.audit.router import router as audit_router
-from app.authority.router import router as lease_router
 from app.body_limit import BodyLimit
-from app.catalogue.router import router as tests_router
-from app.catalogue.texts_router import router as texts_router
 from app.connections import BoundedProtocol
 from app.described import Described
 from app.docs_page import docs_page
-from app.drills.router import router as drills_router
 from app.errors import Refusal
-from app.first_outs.again_router import router as first_outs_again_router
-from app.first_outs.router import router as first_outs_router
-from app.health import router as health_router
-from app.histories.router import router as histories_router
-from app.interlocks.router import router as interlocks_router
-from app.live.router import router as live_router
 from app.logs import begin_log
 from app.no_nul import NoNul
-from app.prediction.router import router as predictions_router
 from app.presets import Presets, load_presets
 from app.problems import install_handlers
-from app.rigs.router import router as rig_router
-from app.runs.predicted_router import router as predicted_router
-from app.runs.results_router import router as results_router
-from app.runs.router import router as runs_router
-from app.runs.samples_router import router as samples_router
+from app.routers import ROUTERS
 from app.security import Guard, known_hosts
 from app.serving import (
     CannotServe,
@@ -60,8 +40,6 @@ from app.settings import VERSION, Settings
 from app.static_files import serve_console
 from app.stopping.door import StopDoor, open_door
 from app.stopping.listening import listening_for_stop
-from app.storage.router import router as storage_router
-from app.system.router import router as system_router
 from app.wiring import Console
 
 _LONGEST_FRAME = 16_384  # of a browser's WebSocket message
@@ -114,31 +92,7 @@ def create_app(
     stop_port = None if stop_door is None else stop_door.port
     app.add_middleware(Guard, hosts=hosts, stop_port=stop_port)
     install_handlers(app, note_refused)
-    for router in (
-        health_router,
-        rig_router,
-        lease_router,
-        texts_router,
-        predictions_router,
-        tests_router,
-        histories_router,
-        runs_router,
-        samples_router,
-        results_router,
-        predicted_router,
-        storage_router,
-        first_outs_router,
-        drills_router,
-        first_outs_again_router,
-        audit_router,
-        system_router,
-        interlocks_router,
-        live_router,
-        auth_router,
-        users_router,
-        credentials_router,
-        sign_in_router,
-    ):
+    for router in ROUTERS:
         app.include_router(router)
 
     @app.get("/docs", include_in_schema=False)

@@ -192,7 +192,7 @@ def test_a_trip_has_its_black_box_down_to_ticks_and_is_played_again(
     page: Page, console: ConsoleProcess
 ) -> None:
     make_ready(page, console)
-    page.keyboard.press("5")
+    page.keyboard.press("7")
     page.get_by_test_id("drill-load_cell_open").click()
     page.get_by_test_id("inject").click()
     page.get_by_test_id("confirm-inject").click()

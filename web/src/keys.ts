@@ -5,7 +5,7 @@ import type { Command } from "./live/types";
 
 type KeyOfView =
   | ("help" | "theme" | "control")
-  | ("operate" | "tests" | "runs" | "interlocks" | "drills" | "system")
+  | ("operate" | "tests" | "runs" | "interlocks" | "controller" | "rig" | "drills" | "system")
   | ("acknowledge" | "pause" | "shorter" | "longer" | "stage");
 
 export type KeyAction =
@@ -32,8 +32,10 @@ export const VIEW_KEYS: readonly KeyInfo[] = [
   { key: "2", does: "Tests", action: { kind: "tests" } },
   { key: "3", does: "Runs", action: { kind: "runs" } },
   { key: "4", does: "Interlocks", action: { kind: "interlocks" } },
-  { key: "5", does: "Drills", action: { kind: "drills" } },
-  { key: "6", does: "System", action: { kind: "system" } },
+  { key: "5", does: "Controller", action: { kind: "controller" } },
+  { key: "6", does: "Rig", action: { kind: "rig" } },
+  { key: "7", does: "Drills", action: { kind: "drills" } },
+  { key: "8", does: "System", action: { kind: "system" } },
   { key: "t", does: "Theme: auto, light, dark", action: { kind: "theme" } },
   { key: "?", does: "Show or hide these keys", action: { kind: "help" } },
 ];

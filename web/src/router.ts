@@ -10,17 +10,26 @@ export type Route =
   | { readonly page: "interlocks" }
   /** A trip that took the load off, with what was recorded around it. */
   | { readonly page: "first-out"; readonly id: number; readonly query: string }
+  /** Several runs side by side: which, and how, is in the query. */
+  | { readonly page: "compare"; readonly query: string }
+  | { readonly page: "controller" }
+  | { readonly page: "rig"; readonly tab: RigTab }
   | { readonly page: "drills" }
   | { readonly page: "system"; readonly tab: SystemTab };
 
 export const SYSTEM_TABS = ["users", "tokens", "audit", "loop", "doctor"] as const;
 export type SystemTab = (typeof SYSTEM_TABS)[number];
 
+export const RIG_TABS = ["configuration", "static", "linear", "identification", "view"] as const;
+export type RigTab = (typeof RIG_TABS)[number];
+
 export const PAGES = [
   { page: "operate", href: "#/operate", label: "Operate" },
   { page: "tests", href: "#/tests", label: "Tests" },
   { page: "runs", href: "#/runs", label: "Runs" },
   { page: "interlocks", href: "#/interlocks", label: "Interlocks" },
+  { page: "controller", href: "#/controller", label: "Controller" },
+  { page: "rig", href: "#/rig", label: "Rig" },
   { page: "drills", href: "#/drills", label: "Drills" },
   { page: "system", href: "#/system", label: "System" },
 ] as const;
@@ -29,11 +38,18 @@ const isNumber = (text: string | undefined): text is string => /^[1-9]\d*$/.test
 
 /** What an address means below each of its first words; unknown ones fall back to the page above. */
 const READ: Readonly<Record<string, (below: readonly string[], query: string) => Route>> = {
-  runs: ([id], query) => (isNumber(id) ? { page: "run", id: Number(id), query } : { page: "runs", query }),
+  runs: ([id], query) =>
+    isNumber(id)
+      ? { page: "run", id: Number(id), query }
+      : id === "compare"
+        ? { page: "compare", query }
+        : { page: "runs", query },
   tests: ([id]) => (id ? { page: "test", id: unescaped(id) } : { page: "tests" }),
   "new-test": () => ({ page: "test", id: null }),
   interlocks: ([what, id], query) =>
     what === "first-outs" && isNumber(id) ? { page: "first-out", id: Number(id), query } : { page: "interlocks" },
+  controller: () => ({ page: "controller" }),
+  rig: ([tab]) => ({ page: "rig", tab: RIG_TABS.find((known) => known === tab) ?? RIG_TABS[0] }),
   drills: () => ({ page: "drills" }),
   system: ([tab]) => ({ page: "system", tab: SYSTEM_TABS.find((known) => known === tab) ?? SYSTEM_TABS[0] }),
 };
@@ -48,6 +64,7 @@ export function routeOf(hash: string): Route {
 /** The page whose entry in the navigation is lit. */
 const ABOVE: Partial<Record<Route["page"], Route["page"]>> = {
   run: "runs",
+  compare: "runs",
   test: "tests",
   "first-out": "interlocks",
 };
@@ -69,6 +86,8 @@ export const runHref = (id: number, query = ""): string => `#/runs/${id}${asked(
 export const runsHref = (query = ""): string => `#/runs${asked(query)}`;
 
 export const firstOutHref = (id: number, query = ""): string => `#/interlocks/first-outs/${id}${asked(query)}`;
+export const compareHref = (ids: readonly number[]): string => `#/runs/compare?ids=${ids.join(",")}`;
+export const rigHref = (tab: RigTab): string => `#/rig/${tab}`;
 export const systemHref = (tab: SystemTab): string => `#/system/${tab}`;
 
 /** Writes what is shown into the address, without a step in the history. Pages hear of it as of any new address. */

@@ -1,0 +1,33 @@
+"""One point of a frequency response, with how far it can be trusted."""
+
+from typing import NamedTuple
+
+
+class Interval(NamedTuple):
+    """In which the truth lies in 95 of 100 cases."""
+
+    low: float
+    high: float
+
+
+class ResponsePoint(NamedTuple):
+    """A transfer at one frequency, amplitude and mean.
+
+    `gain` is in the transfer's unit, `phase_deg` negative where the output lags. `coherence` is 0…1: the
+    share of the output that the input explains. `distortion_percent` is the output's harmonics in % of its
+    fundamental, None where no harmonic is below half the loop rate.
+    """
+
+    transfer: str
+    block: int
+    frequency_hz: float
+    amplitude_n: float
+    mean_n: float
+    gain: float
+    phase_deg: float
+    gain_95: Interval
+    phase_95_deg: Interval
+    coherence: float
+    distortion_percent: float | None
+    cycles: int
+    settled: bool

@@ -1,0 +1,35 @@
+"""The transfers that a run can show: from which channel to which, declared once."""
+
+from typing import NamedTuple
+
+
+class Transfer(NamedTuple):
+    """Output over input, both channels; `unit` is that of the gain."""
+
+    name: str
+    input: str
+    output: str
+    unit: str
+    doc: str
+
+
+_TABLE = (
+    Transfer("force", "force_command_n", "force_n", "1", "Force to its setpoint: the closed loop"),
+    Transfer("plant", "valve_command", "force_n", "N", "Force to valve command: the plant"),
+    Transfer(
+        "disturbance",
+        "velocity_m_s",
+        "force_n",
+        "N s/m",
+        "Force to rod velocity: what a motion does to the force",
+    ),
+    Transfer("compliance", "force_n", "displacement_m", "m/N", "Displacement of the unit to force"),
+    Transfer(
+        "position",
+        "displacement_command_m",
+        "displacement_m",
+        "1",
+        "Displacement of the unit to its command: its position response",
+    ),
+)
+TRANSFERS = {transfer.name: transfer for transfer in _TABLE}

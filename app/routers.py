@@ -1,0 +1,53 @@
+"""Every router of the interface, in the order in which their routes are looked through."""
+
+from fastapi import APIRouter
+
+from app.access.credentials_router import router as credentials_router
+from app.access.router import router as auth_router
+from app.access.sign_in_page import router as sign_in_router
+from app.access.users_router import router as users_router
+from app.audit.router import router as audit_router
+from app.authority.router import router as lease_router
+from app.catalogue.router import router as tests_router
+from app.catalogue.texts_router import router as texts_router
+from app.drills.router import router as drills_router
+from app.first_outs.again_router import router as first_outs_again_router
+from app.first_outs.router import router as first_outs_router
+from app.health import router as health_router
+from app.histories.router import router as histories_router
+from app.interlocks.router import router as interlocks_router
+from app.live.router import router as live_router
+from app.prediction.router import router as predictions_router
+from app.rigs.router import router as rig_router
+from app.runs.predicted_router import router as predicted_router
+from app.runs.results_router import router as results_router
+from app.runs.router import router as runs_router
+from app.runs.samples_router import router as samples_router
+from app.storage.router import router as storage_router
+from app.system.router import router as system_router
+
+ROUTERS: tuple[APIRouter, ...] = (
+    health_router,
+    rig_router,
+    lease_router,
+    texts_router,
+    predictions_router,
+    tests_router,
+    histories_router,
+    runs_router,
+    samples_router,
+    results_router,
+    predicted_router,
+    storage_router,
+    first_outs_router,
+    drills_router,
+    first_outs_again_router,
+    audit_router,
+    system_router,
+    interlocks_router,
+    live_router,
+    auth_router,
+    users_router,
+    credentials_router,
+    sign_in_router,
+)
