@@ -1,0 +1,74 @@
+"""Work in a process of its own, at a low priority: it holds up neither the console nor the loop."""
+
+import ctypes
+import os
+import signal
+from collections.abc import Callable
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from threading import Event
+from typing import Any, TypeVar
+
+NICENESS = 15
+LOOK_S = 0.1  # how often it is asked whether the work is still wanted
+_DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG, prctl(2)
+
+T = TypeVar("T")
+Report = Callable[[float], None]  # told the share that is done, 0…1
+
+
+class WorkFailed(Exception):
+    """The work raised, or its process died; the text says what happened."""
+
+
+class GivenUp(Exception):
+    """Nobody wanted it any more."""
+
+
+def run_apart(
+    work: Callable[..., T], *arguments: Any, report: Report, unwanted: Event | None = None
+) -> T:
+    """`work(report, *arguments)`, done by another process; function, arguments and result are pickled.
+
+    Raises `WorkFailed` where it raised or died, `GivenUp` once it is unwanted.
+    """
+    context = get_context("spawn")
+    ours, theirs = context.Pipe(duplex=False)
+    process = context.Process(target=_work, args=(theirs, work, arguments), daemon=True)
+    process.start()
+    theirs.close()
+    try:
+        return _outcome(ours, report, unwanted)  # type: ignore[no-any-return]  # what was pickled
+    finally:
+        process.kill()
+        process.join()
+        process.close()
+        ours.close()
+
+
+def _outcome(connection: Connection, report: Report, unwanted: Event | None) -> Any:
+    while True:
+        if unwanted is not None and unwanted.is_set():
+            raise GivenUp
+        if not connection.poll(LOOK_S):
+            continue
+        try:
+            word, told = connection.recv()
+        except EOFError:
+            raise WorkFailed("Its process ended before it was done") from None
+        if word == "done":
+            return told
+        if word == "failed":
+            raise WorkFailed(told)
+        report(told)
+
+
+def _work(connection: Connection, work: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+    ctypes.CDLL(None).prctl(_DIES_WITH_PARENT, signal.SIGKILL)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started it ends it
+    os.setpriority(os.PRIO_PROCESS, 0, NICENESS)
+    try:
+        found = work(lambda share: connection.send(("report", share)), *arguments)
+        connection.send(("done", found))
+    except Exception as error:
+        connection.send(("failed", f"{type(error).__name__}: {error}"))
