@@ -20,6 +20,11 @@ WEB_SOURCES := $(wildcard web/*.ts web/*.js web/*.json web/index.html) \
 BOUNDS_CHECKED := $(addprefix tests/unit/rtcore/test_,tick.py trips.py adoption.py generator.py memory.py interlocks.py \
 	stream.py sweeps_and_samples.py)
 
+WITH_ALL = FORCERIG_CHROMIUM="$$($(PY) -m tools.ensure_chromium)" FORCERIG_POSTGRES="$$($(PY) -m tools.ensure_postgres)"
+
+# What has no process of its own is tested side by side, then all others one after another.
+EVERYTHING = $(PY) -m pytest -m "not alone" -n auto --dist loadfile && $(WITH_ALL) $(PY) -m pytest -m alone
+
 # The whole interface once more on a server, where there is one; not where only some tests are asked for.
 define ON_POSTGRESQL
 @folder="$$($(PY) -m tools.ensure_postgres 2>/dev/null)"; \
@@ -36,8 +41,7 @@ run: setup
 test: lint
 	$(NPM) run --silent test
 	NUMBA_BOUNDSCHECK=1 $(PY) -m pytest -q $(BOUNDS_CHECKED)
-	FORCERIG_CHROMIUM="$$($(PY) -m tools.ensure_chromium)" \
-		FORCERIG_POSTGRES="$$($(PY) -m tools.ensure_postgres)" $(PY) -m pytest $(ARGS)
+	$(if $(strip $(ARGS)),$(WITH_ALL) $(PY) -m pytest $(ARGS),$(EVERYTHING))
 	$(if $(strip $(ARGS)),,$(ON_POSTGRESQL))
 
 check: lint unit

@@ -14,7 +14,17 @@ from tests.postgres import Server, programs, serving
 settings.register_profile("forcerig", deadline=None)
 settings.load_profile("forcerig")
 
+HERE = Path(__file__).parent
 ON_POSTGRESQL = pytest.param("postgresql", marks=[pytest.mark.process, pytest.mark.slow])
+
+
+@pytest.hookimpl(tryfirst=True)  # before -m selects by it
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Real processes and browsers have the machine to themselves; everything else may run side by side."""
+    for item in items:
+        beside = item.path.relative_to(HERE).parts[0] in ("unit", "scenarios")
+        if not beside or item.get_closest_marker("process") or item.get_closest_marker("browser"):
+            item.add_marker(pytest.mark.alone)
 
 
 @pytest.hookimpl(wrapper=True)

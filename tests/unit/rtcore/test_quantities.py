@@ -129,3 +129,15 @@ def test_an_open_chain_is_one_that_does_not_say_closed() -> None:
     for word in (0, 2, -1):
         watched.core["inputs"]["chain"] = word
         assert watched.see(0.0, 0.0)[Quantity.CHAIN_OPEN] == 1.0
+
+
+def test_residuals_are_what_was_measured_less_what_the_twin_has() -> None:
+    watched = Watched()
+    watched.core["inputs"]["spool_position"] = 0.25
+    watched.core["observed"]["twin_spool"] = 0.40
+    seen = beside_its_twin(watched, [(1500.0, 1200.0)])
+    assert seen[Quantity.TWIN_SPOOL] == pytest.approx(-0.15)
+    assert seen[Quantity.TWIN_RESIDUAL_N] == pytest.approx(300.0)
+    watched.core["observed"]["has_twin"] = 0
+    seen = watched.see(0.0, 1500.0)
+    assert (seen[Quantity.TWIN_SPOOL], seen[Quantity.TWIN_RESIDUAL_N]) == (0.0, 0.0)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from app.definitions.definition import Definition
 from app.definitions.expansion import expand
+from app.definitions.limits import RIG
 from app.definitions.outline import outline
 from app.definitions.preview import LONGEST_S, preview
 from app.definitions.reading import definition_from
@@ -17,6 +18,7 @@ from tests.unit.app.definitions import bad, strategies
 from tests.unit.app.definitions.playing import play
 
 RATE_HZ = 4000
+ROUNDING = 2e-9  # of the range: the phase of a sine many cycles into a test is rounded
 SOME = settings(max_examples=60, deadline=None)
 anything = strategies.definitions(strategies.every_block)
 
@@ -44,15 +46,19 @@ def test_a_window_shows_what_is_played_in_it(
     assert found.decimated == (bins < last - first)
     edges = [-(-i * (last - first) // bins) for i in range(bins + 1)]
     np.testing.assert_allclose(found.time_s, [(first + edge) / RATE_HZ for edge in edges[:-1]])
-    for low, high, values in (
-        (found.force_min_n, found.force_max_n, force),
-        (found.displacement_min_m, found.displacement_max_m, motion),
+    for low, high, values, within in (
+        (found.force_min_n, found.force_max_n, force, ROUNDING * RIG.force_limit_n),
+        (found.displacement_min_m, found.displacement_max_m, motion, ROUNDING * RIG.stroke_limit_m),
     ):
         parts = [values[a:b] for a, b in pairwise(edges)]
-        np.testing.assert_allclose(low, [part.min() for part in parts], rtol=1e-9, atol=1e-6)
-        np.testing.assert_allclose(high, [part.max() for part in parts], rtol=1e-9, atol=1e-6)
-    assert found.peaks.force_n == pytest.approx(np.abs(force).max(), abs=1e-6)
-    assert found.peaks.displacement_m == pytest.approx(np.abs(motion).max(), abs=1e-9)
+        np.testing.assert_allclose(low, [part.min() for part in parts], rtol=0, atol=within)
+        np.testing.assert_allclose(high, [part.max() for part in parts], rtol=0, atol=within)
+    assert found.peaks.force_n == pytest.approx(
+        np.abs(force).max(), rel=0, abs=ROUNDING * RIG.force_limit_n
+    )
+    assert found.peaks.displacement_m == pytest.approx(
+        np.abs(motion).max(), rel=0, abs=ROUNDING * RIG.stroke_limit_m
+    )
     steepest = np.abs(np.diff(force)).max(initial=0.0) * RATE_HZ
     assert found.peaks.force_rate_n_s == pytest.approx(steepest, rel=1e-6, abs=0.01)
 
