@@ -41,6 +41,7 @@ const PAIRS: [string, string[], number][] = [
   ["--setpoint", ["--well"], GRAPHICS],
   ["--error", ["--well"], GRAPHICS],
   ["--bar", ["--well"], GRAPHICS],
+  ...[1, 2, 3, 4, 5, 6].map((n): [string, string[], number] => [`--series-${n}`, ["--well"], GRAPHICS]),
   ["--commanded", ["--ground"], GRAPHICS],
 ];
 

@@ -50,6 +50,21 @@ export function quantityOf(channel: string): Quantity {
   return BY_SUFFIX.find(([suffix]) => channel.endsWith(suffix))?.[1] ?? PLAIN;
 }
 
+const GAINS: Readonly<Record<string, readonly [string, number]>> = {
+  "1": ["", 1],
+  N: ["kN", 1e-3],
+  "N s/m": ["kN s/m", 1e-3],
+  "m/N": ["mm/kN", 1e6],
+  "N/m": ["kN/mm", 1e-6],
+  "m/s/N": ["mm/s/kN", 1e6],
+};
+
+/** How the gain of a transfer is shown, by its unit as the backend names it. */
+export function gainQuantity(unit: string): Quantity {
+  const [symbol, scale] = GAINS[unit] ?? [unit, 1];
+  return { label: "Gain", symbol, scale, digits: 3 };
+}
+
 /** A figure without its unit: fixed digits, true minus, no minus before zero, a dash for "not known". */
 export function figure(quantity: Quantity, si: number | null | undefined, extraDigits = 0): string {
   if (si === null || si === undefined || !Number.isFinite(si)) return NOTHING;
