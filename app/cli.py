@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from app.cli_access import tokens, users
+from app.cli_analyse import analyse
 
 cli = typer.Typer(
     help="Operator console of a servo-hydraulic force-control test rig.",
@@ -16,6 +17,7 @@ database = typer.Typer(help="The database of the console.", no_args_is_help=True
 cli.add_typer(database, name="db")
 cli.add_typer(users, name="user")
 cli.add_typer(tokens, name="token")
+cli.add_typer(analyse, name="analyse")
 audit = typer.Typer(help="Who did what, when and why.", no_args_is_help=True)
 cli.add_typer(audit, name="audit")
 

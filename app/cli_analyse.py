@@ -1,0 +1,103 @@
+"""`forcerig analyse …`, as typer sees it."""
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+analyse = typer.Typer(
+    help="What a rig and its controller can do, and what runs tell.", no_args_is_help=True
+)
+
+Json = Annotated[bool, typer.Option("--json", help="One JSON document on standard output.")]
+Csv = Annotated[bool, typer.Option("--csv", help="A table with units in its header.")]
+RigFile = Annotated[Path | None, typer.Option(help="Rig parameters that differ from the shipped.")]
+Settings = Annotated[Path | None, typer.Option(help="Controller settings; as shipped without.")]
+MeanN = Annotated[float, typer.Option("--mean-n", help="Mean of the load, N.")]
+FromHz = Annotated[float | None, typer.Option("--from-hz", help="Lowest frequency.")]
+ToHz = Annotated[float | None, typer.Option("--to-hz", help="Highest frequency.")]
+Points = Annotated[int | None, typer.Option(help="Of each curve.")]
+
+
+def _given(**values: Any) -> dict[str, Any]:
+    return {name: value for name, value in values.items() if value not in (None, [])}
+
+
+@analyse.command()
+def static(
+    orifice_diameter_m: Annotated[
+        list[float] | None, typer.Option(help="Of the bypass; may be given again.")
+    ] = None,
+    pressure_pa: Annotated[
+        float | None, typer.Option(help="Pump to tank.", show_default="of the rig")
+    ] = None,
+    points: Points = None,
+    rig: RigFile = None,
+    json: Json = False,
+    csv: Csv = False,
+) -> None:
+    """Static characteristic and force gain for bypass orifices (figure 5)."""
+    from app.commands.analyse import Subject
+    from app.commands.analyse import static as run
+
+    given = _given(orifice_diameter_m=orifice_diameter_m, pressure_pa=pressure_pa, points=points)
+    raise typer.Exit(run(Subject(rig, None, json, csv), given))
+
+
+@analyse.command()
+def linear(
+    amplitude_n: Annotated[
+        list[float] | None,
+        typer.Option(help="Of the load; may be given again.", show_default="1, 2, 5, 10 kN"),
+    ] = None,
+    mean_n: MeanN = 0.0,
+    load_hz: Annotated[
+        float | None, typer.Option(help="Frequency of the load: puts the compensation in.")
+    ] = None,
+    from_hz: FromHz = None,
+    to_hz: ToHz = None,
+    points: Points = None,
+    bode: Annotated[
+        bool, typer.Option("--bode", help="Responses instead of margins, where not as JSON.")
+    ] = False,
+    rig: RigFile = None,
+    controller: Settings = None,
+    json: Json = False,
+    csv: Csv = False,
+) -> None:
+    """K_1, K_2, τ, margins, open and closed loop at every amplitude."""
+    from app.commands.analyse import Subject
+    from app.commands.analyse import linear as run
+
+    given = _given(amplitude_n=amplitude_n, mean_n=mean_n, load_hz=load_hz)
+    given |= _given(from_hz=from_hz, to_hz=to_hz, points=points)
+    raise typer.Exit(run(Subject(rig, controller, json, csv), given, bode))
+
+
+@analyse.command()
+def compensator(
+    load_hz: Annotated[
+        float | None, typer.Option(help="Frequency of the load.", show_default="40")
+    ] = None,
+    amplitude_n: Annotated[
+        float | None, typer.Option(help="Of the load.", show_default="3000")
+    ] = None,
+    mean_n: MeanN = 0.0,
+    tune_hz: Annotated[
+        float | None, typer.Option(help="Tell the gains that are exact at this frequency.")
+    ] = None,
+    from_hz: FromHz = None,
+    to_hz: ToHz = None,
+    points: Points = None,
+    rig: RigFile = None,
+    controller: Settings = None,
+    json: Json = False,
+    csv: Csv = False,
+) -> None:
+    """Each filter of the compensation, and the loop with it and without (figure 11)."""
+    from app.commands.analyse import Subject
+    from app.commands.analyse import compensator as run
+
+    given = _given(load_hz=load_hz, amplitude_n=amplitude_n, mean_n=mean_n, tune_hz=tune_hz)
+    given |= _given(from_hz=from_hz, to_hz=to_hz, points=points)
+    raise typer.Exit(run(Subject(rig, controller, json, csv), given))
