@@ -55,10 +55,11 @@ class StepStatistics:
 
     def take(self, step: StepResponse) -> None:
         """Count a step."""
+        either_way = step._replace(steady_error=abs(step.steady_error))
         if self.worst is None:
-            self.worst = step
+            self.worst = either_way
             return
-        self.worst = StepResponse(*(float(x) for x in np.maximum(self.worst, step)))
+        self.worst = StepResponse(*(float(x) for x in np.maximum(self.worst, either_way)))
 
 
 @dataclass

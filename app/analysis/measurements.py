@@ -169,6 +169,20 @@ _TABLE = (
         _of_steps(lambda step: step.settling_s),
         grows=True,
     ),
+    Measurement(
+        "step_dead_time_s",
+        "s",
+        "Longest time of all steps from the command to the first 5 % of the step",
+        _of_steps(lambda step: step.dead_time_s),
+        grows=True,
+    ),
+    Measurement(
+        "step_steady_error_n",
+        "N",
+        "Largest error of all steps that stays: of the mean force over the second half of the hold",
+        _of_steps(lambda step: step.steady_error),
+        grows=True,
+    ),
 )
 MEASUREMENTS = {measurement.name: measurement for measurement in _TABLE}
 

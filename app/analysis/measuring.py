@@ -105,7 +105,8 @@ class Measuring:
         block = self._blocks.setdefault(stretch.block, _Block())
         block.counts |= stretch.counts
         if stretch.kind is Kind.STEP and stretch.begin_n != stretch.end_n:
-            self._step = StepFollower(stretch.begin_n, stretch.end_n, self._period_s)
+            steady_from = (stretch.last - stretch.first) // 2
+            self._step = StepFollower(stretch.begin_n, stretch.end_n, self._period_s, steady_from)
 
     def _end_stretch(self) -> None:
         if self._at is None:

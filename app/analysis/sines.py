@@ -36,6 +36,19 @@ class FoundSine(NamedTuple):
         return 100 * (self.amplitude_n / self.asked.amplitude_n - 1)
 
 
+class Harmonic(NamedTuple):
+    """A multiple of a sine's frequency in the force.
+
+    `phase_deg` is against the same multiple of the setpoint's phase, from −180 to 180: 0 where the two
+    are highest together. `percent` is of the first harmonic.
+    """
+
+    order: int
+    amplitude_n: float
+    phase_deg: float
+    percent: float
+
+
 class SineSums:
     """The normal equations of one sine: of a stretch of cycles, or of many."""
 
@@ -103,6 +116,11 @@ class SineFit:
         sums = self._blocks.get(block, {})
         return [_read(block, sine, found) for sine, found in sums.items()]
 
+    def harmonics_of_block(self, block: int) -> list[tuple[Harmonic, ...]]:
+        """The harmonics of each of the sines `of_block`, from the first to the tenth at most."""
+        self._file()
+        return [_harmonics(found) for found in self._blocks.get(block, {}).values()]
+
     def of_run(self) -> list[FoundSine]:
         """What the sines of the run amount to, each once; `block` is the first that has it."""
         self._file()
@@ -139,6 +157,21 @@ def _read(block: int, sine: Sine, sums: SineSums) -> FoundSine:
     phase_deg = math.degrees(float(np.angle(first * np.conj(setpoint[2]))))
     return FoundSine(
         block, sine, float(2 * abs(first)), float(parts[middle].real), phase_deg, distortion
+    )
+
+
+def _harmonics(sums: SineSums) -> tuple[Harmonic, ...]:
+    parts = _solve(sums.force, sums.ones)[sums.harmonics + 1 :]
+    turn = np.angle(_solve(sums.command, sums.ones)[2])
+    orders = np.arange(1, len(parts) + 1)
+    amplitudes_n = 2 * np.abs(parts)
+    phases_deg = np.degrees(np.angle(parts * np.exp(-1j * turn * orders)))
+    shares = 100 * amplitudes_n / amplitudes_n[0] if amplitudes_n[0] > 0 else amplitudes_n * np.nan
+    return tuple(
+        Harmonic(int(order), float(amplitude_n), float(phase_deg), float(share))
+        for order, amplitude_n, phase_deg, share in zip(
+            orders, amplitudes_n, phases_deg, shares, strict=True
+        )
     )
 
 

@@ -1,4 +1,4 @@
-"""Overshoot, rise and settling of a step response."""
+"""Dead time, rise, overshoot, settling and steady error of a step response."""
 
 import math
 from typing import NamedTuple
@@ -9,6 +9,7 @@ import numpy.typing as npt
 from rtcore.compiled import entry
 
 RISE_FROM, RISE_TO = 0.1, 0.9
+DEAD_BELOW = 0.05  # of the step: less than that may be noise
 SETTLED_WITHIN = 0.02
 
 _SEEN = np.dtype(
@@ -20,19 +21,25 @@ _SEEN = np.dtype(
         ("highest", "f8"),
         ("from_at", "f8"),  # sample at which RISE_FROM and RISE_TO were first reached; NaN: not yet
         ("to_at", "f8"),
+        ("moves_at", "f8"),  # and DEAD_BELOW
+        ("steady_sum", "f8"),  # of the shares from `steady_from` on
+        ("steady_count", "i8"),
     ]
 )
 
 
 class StepResponse(NamedTuple):
-    """Overshoot in % of the step, rise from 10 to 90 %, and time to stay within 2 %.
+    """Overshoot in % of the step, rise from 10 to 90 %, time to stay within 2 %, and time to the first 5 %.
 
-    NaN where the response did not get that far.
+    `steady_error` is by how much the mean over the second half of the hold is beside what was commanded,
+    in the unit of the step, positive where too little came. NaN where the response did not get that far.
     """
 
     overshoot_percent: float
     rise_s: float
     settling_s: float
+    dead_time_s: float = math.nan
+    steady_error: float = math.nan
 
 
 class StepFollower:
@@ -42,18 +49,24 @@ class StepFollower:
     where the step has no height.
     """
 
-    def __init__(self, begin: float, end: float, period_s: float) -> None:
+    def __init__(
+        self, begin: float, end: float, period_s: float, steady_from: int | None = None
+    ) -> None:
+        """`steady_from` is the sample from which the response is held to be steady, None for never."""
         if begin == end:
             raise ValueError("a step needs a height and a response")
+        self._steady_from = -1 if steady_from is None else steady_from
         self._begin, self._end, self._period_s = begin, end, period_s
         self._seen = np.zeros(1, _SEEN)
-        self._seen["from_at"] = self._seen["to_at"] = math.nan
+        for name in ("from_at", "to_at", "moves_at"):
+            self._seen[name] = math.nan
         self._seen["highest"], self._seen["outside"] = -math.inf, -1
 
     def take(self, samples: npt.NDArray[np.int64], response: npt.NDArray[np.floating]) -> None:
         """The next samples (n,), numbered from the step, and the response (n,) at them."""
         values = np.asarray(response, np.float64)
-        _follow(self._seen, np.ascontiguousarray(samples), values, self._begin, self._end)
+        numbers = np.ascontiguousarray(samples)
+        _follow(self._seen, numbers, values, self._begin, self._end, self._steady_from)
 
     def read(self) -> StepResponse:
         """What the response amounts to as far as it goes. Raises ValueError before its first sample."""
@@ -64,14 +77,27 @@ class StepFollower:
         settled = seen["outside"] < seen["last"]
         settling = float(seen["outside"] + 1) if settled else math.nan
         overshoot = float(100 * np.maximum(0.0, seen["highest"] - 1))
-        return StepResponse(overshoot, rise * self._period_s, settling * self._period_s)
+        return StepResponse(
+            overshoot,
+            rise * self._period_s,
+            settling * self._period_s,
+            float(seen["moves_at"]) * self._period_s,
+            self._steady_error(),
+        )
+
+    def _steady_error(self) -> float:
+        seen = self._seen[0]
+        if seen["steady_count"] == 0:
+            return math.nan
+        share = float(seen["steady_sum"] / seen["steady_count"])
+        return (1 - share) * (self._end - self._begin)
 
 
 def step_response(
     response: npt.NDArray[np.floating], begin: float, end: float, period_s: float
 ) -> StepResponse:
     """Read off a whole response (n_samples,) to a step at sample 0; see `StepFollower`."""
-    follower = StepFollower(begin, end, period_s)
+    follower = StepFollower(begin, end, period_s, len(response) // 2)
     follower.take(np.arange(len(response)), response)
     return follower.read()
 
@@ -83,11 +109,14 @@ def _follow(
     response: npt.NDArray[np.float64],
     begin: float,
     end: float,
+    steady_from: int,
 ) -> None:
     seen = state[0]
     for i in range(len(samples)):
         share = (response[i] - begin) / (end - begin)
         back = (share - seen.share) / max(1, samples[i] - seen.last)  # a sample
+        if np.isnan(seen.moves_at) and share >= DEAD_BELOW:
+            seen.moves_at = samples[i] - (share - DEAD_BELOW) / back if seen.count else samples[i]
         if np.isnan(seen.from_at) and share >= RISE_FROM:
             seen.from_at = samples[i] - (share - RISE_FROM) / back if seen.count else samples[i]
         if np.isnan(seen.to_at) and share >= RISE_TO:
@@ -96,6 +125,9 @@ def _follow(
             seen.highest = share
         if not abs(share - 1.0) <= SETTLED_WITHIN:
             seen.outside = samples[i]
+        if 0 <= steady_from <= samples[i]:
+            seen.steady_sum += share
+            seen.steady_count += 1
         seen.share = share
         seen.last = samples[i]
         seen.count += 1
