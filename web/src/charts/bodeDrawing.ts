@@ -169,6 +169,7 @@ export function drawCallouts(plot: uPlot, named: readonly Named[]): void {
   within(plot, (ctx, { x, y }) => {
     ctx.font = `600 ${size.toFixed(1)}px ${colour("--font")}`;
     ctx.textBaseline = "top";
+    ctx.textAlign = "left";
     const labels = named.map((one) => ({
       ...{ x: x(one.hz) - left, y: y(one.y) - top, above: one.above },
       width: ctx.measureText(one.text).width + 0.6 * size,
