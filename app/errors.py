@@ -47,6 +47,7 @@ class Code(StrEnum):
     INVALID_TEST = "invalid_test"
     RUN_UNDER_WAY = "run_under_way"
     NO_DATA = "no_data"
+    INVALID_REPORT = "invalid_report"
     LOOP_LOST = "loop_lost"
     LOOP_SILENT = "loop_silent"
     WRONG_MODE = "wrong_mode"

@@ -56,6 +56,7 @@ STATUS: Mapping[Code, int] = {
     Code.INVALID_TEST: 422,
     Code.RUN_UNDER_WAY: 409,
     Code.NO_DATA: 404,
+    Code.INVALID_REPORT: 409,
     Code.LOOP_LOST: 503,
     Code.LOOP_SILENT: 504,
     Code.WRONG_MODE: 409,

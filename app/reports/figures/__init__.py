@@ -1,0 +1,1 @@
+"""Vector figures: restrained, readable in black and white, the same bytes for the same data."""

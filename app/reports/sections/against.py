@@ -1,0 +1,33 @@
+"""One quantity against another: force over displacement of the unit, force over its setpoint."""
+
+import numpy as np
+
+from app.reports.figures.plain import Line, against
+from app.reports.numbers import duration
+from app.reports.report import Figure, Section
+from app.reports.subject import Subject
+from app.reports.views import ticks_of
+
+SHOWN_S = 0.5
+MOST_POINTS = 2500
+
+
+def across(subject: Subject) -> Section | None:
+    """The middle of the run as X-Y; nothing where it has too few samples."""
+    if subject.samples is None:
+        return None
+    lasts_s = (subject.samples.last_tick - subject.origin) * subject.period_s
+    shown_s = min(SHOWN_S, lasts_s)
+    from_s = 0.5 * (lasts_s - shown_s)
+    names = ("force_n", "force_command_n", "displacement_m")
+    found = ticks_of(subject, names, from_s, from_s + shown_s)
+    if len(found["force_n"]) < 2:
+        return None
+    step = max(1, len(found["force_n"]) // MOST_POINTS)
+    force, asked, moved = (np.asarray(found[name][::step]) for name in names)
+    pairs = (
+        ("Displacement of the unit (mm)", "Force (kN)", [Line("", moved, force)]),
+        ("Setpoint (kN)", "Force (kN)", [Line("", asked, force)]),
+    )
+    caption = f"Force against displacement and against its setpoint, {duration(shown_s)} in the middle"
+    return Section("X-Y", (Figure(caption, against(pairs), caption),))
