@@ -14,8 +14,9 @@ class ResponsePoint(NamedTuple):
     """A transfer at one frequency, amplitude and mean.
 
     `gain` is in the transfer's unit, `phase_deg` negative where the output lags. `coherence` is 0…1: the
-    share of the output that the input explains. `distortion_percent` is the output's harmonics in % of its
-    fundamental, None where no harmonic is below half the loop rate.
+    share of the output that the input explains, cycle by cycle. An interval of less than two cycles has no
+    bounds: its end is inf, its phase a whole turn. `distortion_percent` is the output's harmonics in % of its
+    fundamental, None where no harmonic is below half the loop rate or there is no fundamental.
     """
 
     transfer: str
