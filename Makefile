@@ -18,7 +18,7 @@ WEB_SOURCES := $(wildcard web/*.ts web/*.js web/*.json web/index.html) \
 
 # Kernels that index what the other side of the memory wrote, once more with every index checked.
 BOUNDS_CHECKED := $(addprefix tests/unit/rtcore/test_,tick.py trips.py adoption.py generator.py memory.py interlocks.py \
-	stream.py sweeps_and_samples.py)
+	stream.py sweeps_and_samples.py skipping.py)
 
 WITH_ALL = FORCERIG_CHROMIUM="$$($(PY) -m tools.ensure_chromium)" FORCERIG_POSTGRES="$$($(PY) -m tools.ensure_postgres)"
 

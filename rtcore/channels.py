@@ -22,6 +22,12 @@ CHANNELS = (
     Channel("time_s", "s", "f8", "Tick number times the period"),
     Channel("trips", "-", "u8", "Latched detectors, one bit each"),
     Channel("run", "-", "i8", "Number of the run this tick belongs to, 0 for none"),
+    Channel(
+        "program_tick",
+        "-",
+        "i8",
+        "Tick of the force program: stands still in a hold, jumps on a skip; -1 outside a run",
+    ),
     Channel("force_command_n", "N", "f4", "Setpoint of the force loop"),
     Channel("force_n", "N", "f4", "Load cell, compression positive"),
     Channel("force_error_n", "N", "f4", "Setpoint minus load cell"),

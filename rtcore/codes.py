@@ -21,6 +21,7 @@ class Opcode(IntEnum):
     INJECT_FAULT = 13  # into the simulated rig: which, and how much; 0 takes it away
     CLEAR_FAULTS = 14
     TAKE_LEASE = 15  # from now on only commands of this epoch are obeyed
+    SKIP = 16  # to a segment further on in the force course, which continues the present sine
 
 
 class Reply(IntEnum):
@@ -55,3 +56,4 @@ class EventKind(IntEnum):
     LEASE = 9  # the epoch of the lease that is obeyed from now on
     FAULT = 10  # injected into the simulated rig, with its amount
     STOP_ASKED = 11  # on the path that needs no command
+    SKIPPED = 12  # to which segment, and how many ticks of the program were left out

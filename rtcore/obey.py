@@ -17,6 +17,7 @@ from rtcore.memory.playing import rewind
 from rtcore.memory.rings import publish_event
 from rtcore.modes import Event, Mode, is_run
 from rtcore.program.segments import Segment
+from rtcore.program.skipping import can_skip, skip
 from rtcore.program.validate import (
     is_played_once,
     repeat_is_too_deep,
@@ -172,6 +173,20 @@ def _start(core: Record, block: Record, block_address: int, run: int) -> int:
 
 
 @kernel
+def _skip(core: Record, block: Record, block_address: int, segment: int) -> int:
+    """End the present sine and go on with a segment further on in its chain."""
+    if core.mode != Mode.RUNNING:
+        return Reply.WRONG_MODE
+    table = block.programs[block.active_program].force
+    if not can_skip(core.force, table, segment):
+        return Reply.INVALID_BANK
+    left_out = skip(core.force, table, segment, core.settings.period_s)
+    block.program_ticks += left_out
+    publish_event(block_address, core.tick, EventKind.SKIPPED, segment, left_out, 0.0)
+    return Reply.ACCEPTED
+
+
+@kernel
 def _inject(core: Record, block: Record, block_address: int, kind: int, amount: float) -> int:
     """Have the simulated rig break, or mend it again with an amount of 0. What is told is what is in force."""
     if core.settings.simulated == 0:
@@ -213,6 +228,8 @@ def _carry_out(core: Record, block: Record, block_address: int, command: Record)
         return _inject(core, block, block_address, argument, command.value)
     if opcode == Opcode.CLEAR_FAULTS:
         return _clear_faults(core, block, block_address)
+    if opcode == Opcode.SKIP:
+        return _skip(core, block, block_address, argument)
     if opcode == Opcode.RESET:
         return _reset(core, block, block_address)
     if opcode == Opcode.TARE:

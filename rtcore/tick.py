@@ -161,6 +161,7 @@ def fill_record(record: Record, core: Record, wakeup_latency_ns: int, tick_time_
     record.time_s = core.tick * core.settings.period_s
     record.trips = core.trips
     record.run = core.run
+    record.program_tick = core.force.position if is_run(core.mode) else -1
     record.force_command_n = core.force.value
     record.force_n = core.sample.force_n
     record.force_error_n = core.force.value - core.sample.force_n

@@ -18,6 +18,8 @@ NEEDED = (
     *("displacement_m", "velocity_m_s", "valve_command"),
 )
 
+POSITION = "program_tick"  # where the loop itself says that it is
+
 Columns = Mapping[str, npt.NDArray[Any]] | npt.NDArray[Any]  # by name, or (n,) TELEMETRY
 Ticks = npt.NDArray[np.int64]
 
@@ -73,7 +75,11 @@ class Walk:
         self._turns = False  # whether the stretch before was a harmonic one
 
     def take(self, chunk: Columns) -> Iterator[Part]:
-        """The parts of the next ticks of the run; at least the columns `NEEDED`."""
+        """The parts of the next ticks of the run; at least the columns `NEEDED`.
+
+        Where the loop's own `POSITION` is not among them, or −1 as of a recording of before there was one,
+        positions are counted.
+        """
         ticks = _plain(chunk, "tick")
         if len(ticks) == 0:
             return
@@ -83,6 +89,9 @@ class Walk:
         _follow(
             self._at.reshape(1), ticks, _plain(chunk, "mode"), self._fade_ticks, positions, kept
         )
+        if POSITION in _names_of(chunk):
+            told = chunk[POSITION]
+            positions = np.where(told >= 0, told, positions)
         columns = {name: _plain(chunk, name) for name in self._names}
         if not kept.all():
             positions = positions[kept]
@@ -136,6 +145,10 @@ class Walk:
         if begins and not (stretch.continues and self._turns):
             self._anchor = int(shift[0])
         return np.asarray(shift == self._anchor)
+
+
+def _names_of(chunk: Columns) -> Iterable[str]:
+    return chunk.dtype.names or () if isinstance(chunk, np.ndarray) else chunk
 
 
 def _plain(chunk: Columns, name: str) -> npt.NDArray[Any]:

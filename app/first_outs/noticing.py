@@ -87,6 +87,8 @@ class Noticer:
             self._modes.append((tick, self._mode))
         elif kind == EventKind.FAULT:
             self._inject(tick, code, float(event["value"]))
+        elif kind == EventKind.SKIPPED:
+            self._step(tick, Opcode.SKIP, code, float(event["value"]))
         elif kind == EventKind.STOP_ASKED:
             self._step(tick, Opcode.STOP)
         elif kind == EventKind.COMMAND and int(event["value"]) == Reply.ACCEPTED:

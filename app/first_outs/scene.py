@@ -70,7 +70,8 @@ def _midway(trip_tick: int, steps: list[Step], definition: Definition) -> Scene:
     for begin, end in reversed(holds):
         if begin <= first < end:
             first = max(0, begin - 1)
-    held, still = [], 0
+    left_out = sum(round(s.value) for s in steps if s.opcode == "skip" and s.tick <= first)
+    held, still = [], -left_out
     for begin, end in holds:
         if end <= first:
             held.append(Hold(begin - still, end - begin))
@@ -79,7 +80,11 @@ def _midway(trip_tick: int, steps: list[Step], definition: Definition) -> Scene:
     motion = list(chain(*motion_nodes(definition.motion)))
     begun = begun_at(force, first - still, held), begun_at(motion, first - still, held)
     program = Program(begun[0].course, begun[1].course)
-    later = (s.model_copy(update={"tick": s.tick - first}) for s in steps if s.tick > first)
+    later = (
+        s.model_copy(update={"tick": s.tick - first})
+        for s in steps
+        if s.tick > first and s.opcode != "skip"
+    )
     return Scene(
         program, begun, trip_tick - first, tuple(later), "running", _faults_at(steps, first)
     )

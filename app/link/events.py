@@ -91,6 +91,9 @@ def _words(record: Any, detectors: npt.NDArray[Any], period_ns: int) -> _Words:
     if kind is EventKind.CLEARED:
         name = _detector_name(code, detectors)
         return "cleared", name, f"{_spoken(name)} is content again"
+    if kind is EventKind.SKIPPED:
+        text = f"Went on with the frequency response {value * period_ns * 1e-9:.1f} s early"
+        return "skipped", str(code), text
     return _WORDS[kind](code, value)
 
 

@@ -54,7 +54,8 @@ WATCH = np.dtype(
         ("detectors", "i8"),
         ("valve_limit", "f8"),
         ("ticks", "i8"),  # of the run, until now
-        ("loaded", "i8"),  # of them, those of the program
+        ("loaded", "i8"),  # of them, those of the program, with those that were skipped
+        ("position", "i8"),  # in the program, of the tick before
         ("kept", "i8"),  # ticks of the program whose force and displacement are kept
         ("saturated", "i8"),
         ("saturated_now", "i8"),
@@ -175,7 +176,9 @@ def _watch_load(w: Record, core: Record, tallies: Any, force: Any, displacement:
     block, force_n = core.force.block, core.sample.force_n
     saturated = abs(core.outputs.valve_command) >= w.valve_limit - SATURATED_WITHIN
     w.saturated_now = w.saturated_now + 1 if saturated else 0
-    w.loaded += 1
+    position = core.force.position
+    w.loaded += max(1, position - w.position)
+    w.position = position
     if saturated:
         w.saturated += 1
         if w.saturated_now > w.longest_saturated:
@@ -186,10 +189,12 @@ def _watch_load(w: Record, core: Record, tallies: Any, force: Any, displacement:
         _tally(w, tallies[block], core, force_n, saturated)
     w.amplitude = core.force.amplitude
     w.mean = core.force.mean
-    if core.force.hold_ticks == 0 and w.kept == w.loaded - 1 and w.kept < len(force):
-        force[w.kept] = force_n
-        displacement[w.kept] = core.sample.displacement_m
-        w.kept += 1
+    if core.force.hold_ticks == 0 and position == w.loaded - 1 and position < len(force):
+        force[w.kept : position] = np.nan  # skipped
+        displacement[w.kept : position] = np.nan
+        force[position] = force_n
+        displacement[position] = core.sample.displacement_m
+        w.kept = position + 1
 
 
 @entry

@@ -6,11 +6,26 @@ import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
 
-from rtcore.channels import CHANNELS, TELEMETRY
+from rtcore.channels import CHANNEL, CHANNELS, TELEMETRY
 
 SCHEMA = pa.schema(
     [pa.field(c.name, pa.from_numpy_dtype(np.dtype(c.dtype)), nullable=False) for c in CHANNELS]
 )
+
+
+def not_recorded(name: str, ticks: int) -> npt.NDArray[Any]:
+    """(ticks,) of a channel that a recording of before it was there lacks: NaN, or −1 where it counts."""
+    dtype = np.dtype(CHANNEL[name].dtype)
+    return np.full(ticks, np.nan if dtype.kind == "f" else -1, dtype)
+
+
+def whole_columns(table: Any) -> dict[str, npt.NDArray[Any]]:
+    """Every channel of an Arrow table of telemetry, whenever it was recorded."""
+    there = set(table.column_names)
+    return {
+        c.name: table[c.name].to_numpy() if c.name in there else not_recorded(c.name, len(table))
+        for c in CHANNELS
+    }
 
 
 def as_batch(records: npt.NDArray[Any]) -> Any:

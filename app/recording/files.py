@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from app.recording.bins import Columns
+from app.recording.columns import whole_columns
 from app.recording.extent import Extent
 from app.recording.outcome import Ending
 from app.recording.overview import write_overview
@@ -59,7 +60,7 @@ def with_overview(folder: Path, batches: Iterable[Any]) -> Iterator[Any]:
     def chunks() -> Iterator[Columns]:
         for table in row_groups(batches):
             pieces.extend(table.to_batches())
-            yield {name: table[name].to_numpy() for name in table.column_names}
+            yield whole_columns(table)
 
     for _ in write_overview(folder, chunks()):
         yield from pieces

@@ -14,7 +14,7 @@ from app.recording.whole_file import whole_file
 METADATA_KEY = b"forcerig"
 ROW_GROUP = 65_536
 # Measured in docs/decisions/0011: 28 bytes a tick instead of 46, in a third of the time.
-_PACKED = ("tick", "cycle", "deadlines_missed")
+_PACKED = ("tick", "program_tick", "cycle", "deadlines_missed")
 _REPEATED = ("trips", "run", "block", "mode")
 _ENCODING = {
     "compression": "zstd",
@@ -61,9 +61,9 @@ def row_groups(batches: Iterable[Any]) -> Iterator[Any]:
         waiting.append(batch)
         rows += batch.num_rows
         while rows >= ROW_GROUP:
-            table = pa.Table.from_batches(waiting, SCHEMA)
+            table = pa.Table.from_batches(waiting)
             yield table.slice(0, ROW_GROUP).combine_chunks()
             waiting = table.slice(ROW_GROUP).to_batches()
             rows -= ROW_GROUP
     if rows:
-        yield pa.Table.from_batches(waiting, SCHEMA).combine_chunks()
+        yield pa.Table.from_batches(waiting).combine_chunks()

@@ -9,6 +9,7 @@ import numpy as np
 import pyarrow.parquet as pq
 
 from app.recording.bins import Columns
+from app.recording.columns import not_recorded
 from app.recording.extent import Extent, extent_of
 from app.recording.files import parquet_path, with_overview
 from app.recording.live_overview import read_live_overview
@@ -45,6 +46,7 @@ class _File:
         self.first = np.array([int(end.min) for end in ends])
         self.last = np.array([int(end.max) for end in ends])
         rows = np.array([group.num_rows for group in groups])
+        self.names = frozenset(self.metadata.schema.names)
         self.gapless = self.last - self.first + 1 == rows
         self.extent = Extent(int(self.first[0]), int(self.last[-1]), int(rows.sum()))
 
@@ -60,7 +62,8 @@ class ParquetSamples:
 
     def chunks(self, names: Sequence[str], first_tick: int, last_tick: int) -> Iterator[Columns]:
         known = self._known
-        wanted = [name for name in dict.fromkeys(names) if name != "tick"]
+        wanted = [name for name in dict.fromkeys(names) if name != "tick" and name in known.names]
+        lacking = [name for name in names if name not in known.names]
         start = int(np.searchsorted(known.last, first_tick))
         end = int(np.searchsorted(known.first, last_tick, side="right"))
         if start >= end:
@@ -72,6 +75,7 @@ class ParquetSamples:
                 columns = {name: table[name].to_numpy() for name in with_ticks}
                 if "tick" not in columns:
                     columns["tick"] = np.arange(known.first[i], known.last[i] + 1)
+                columns |= {name: not_recorded(name, len(columns["tick"])) for name in lacking}
                 yield _between(columns, first_tick, last_tick)
 
     def levels(self) -> Levels:

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from app.analysis.acquisition.table import Acquisition
 from app.analysis.predicted import Predicted
-from app.analysis.walk import NEEDED, Columns
+from app.analysis.walk import NEEDED, POSITION, Columns
 from app.controller.settings import ControllerSettings
 from app.definitions.definition import Definition
 from app.definitions.reading import definition_from
@@ -81,7 +81,7 @@ def _tables(
 
 
 def _chunks(samples: Samples, tables: list[Acquisition]) -> Iterator[Columns]:
-    names = dict.fromkeys([*NEEDED, *(name for table in tables for name in table.needs)])
+    names = dict.fromkeys([POSITION, *NEEDED, *(name for table in tables for name in table.needs)])
     return samples.chunks(list(names), samples.first_tick, samples.last_tick)
 
 

@@ -27,6 +27,7 @@ GENERATOR = np.dtype(
         ("segment", "i8"),
         ("tick", "i8"),  # within the segment
         ("ticks", "i8"),  # of the segment
+        ("first_position", "i8"),  # ticks of the program before the segment
         ("depth", "i8"),
         ("repeat_segment", "i8", (MAX_DEPTH,)),
         ("repeat_pass", "i8", (MAX_DEPTH,)),
@@ -55,6 +56,10 @@ GENERATOR = np.dtype(
         ("branch", "i8"),
         ("block", "i8"),
         ("cycle", "i8"),
+        (
+            "position",
+            "i8",
+        ),  # in ticks of the program: stands still in a hold, jumps where segments are skipped
     ],
     align=True,
 )
@@ -67,6 +72,8 @@ _SEGMENT_MASK = MAX_SEGMENTS - 1
 def start(g: Record, table: Record, value: float, period_s: float) -> None:
     """Begin a table at a setpoint of `value`."""
     g.segment = 0
+    g.first_position = 0
+    g.position = 0
     g.depth = 0
     g.ended = 0
     g.hold_ticks = 0
@@ -119,7 +126,7 @@ def enter(g: Record, s: Record, period_s: float) -> None:
 
 
 @kernel
-def _evaluate(g: Record, s: Record, table: Record, tick: int, period_s: float) -> None:
+def evaluate(g: Record, s: Record, table: Record, tick: int, period_s: float) -> None:
     """Set mean, amplitude, frequency and value at a tick of the segment."""
     share = tick / g.ticks if g.ticks > 0 else 1.0
     if has_phase(s.kind):
@@ -145,19 +152,25 @@ def _evaluate(g: Record, s: Record, table: Record, tick: int, period_s: float) -
 
 
 @kernel
+def leave_sine(g: Record, s: Record, tick: int, period_s: float) -> None:
+    """Count the cycles of a sine that ends at a tick, and keep its phase for what continues."""
+    phase = phase_cycles(g, s, tick, period_s)
+    if s.counts != 0:
+        half_a_tick = 0.5 * g.frequency_hz * period_s  # a cycle may end between ticks
+        g.cycles_before += math.floor(phase - g.from_phase + half_a_tick + 1e-9)
+    g.from_phase = phase - math.floor(phase)
+
+
+@kernel
 def _leave(g: Record, s: Record, table: Record, period_s: float) -> None:
     """Set what the segment leaves behind: its value, phase and cycles at its last instant."""
-    _evaluate(g, s, table, g.ticks, period_s)
+    evaluate(g, s, table, g.ticks, period_s)
+    g.first_position += g.ticks
     if s.kind == Segment.SAMPLES:
         g.knot = g.first_knot + s.times
         g.mean = g.value  # a sine that continues from here begins where the samples end
     if has_phase(s.kind):
-        phase = phase_cycles(g, s, g.ticks, period_s)
-        if s.counts != 0:
-            g.cycles_before += math.floor(
-                phase - g.from_phase + 0.5 * g.frequency_hz * period_s + 1e-9
-            )
-        g.from_phase = phase - math.floor(phase)
+        leave_sine(g, s, g.ticks, period_s)
 
 
 @kernel
@@ -245,11 +258,12 @@ def generate(
         _settle(g, table, period_s)
     s = table.segments[g.segment & _SEGMENT_MASK]
     if _knots_are_there(g, s, g.tick, period_s):
-        _evaluate(g, s, table, g.tick, period_s)
+        evaluate(g, s, table, g.tick, period_s)
     else:  # the setpoint stays where it is
         g.from_value = g.value if g.starved == 0 else g.from_value
         rest(g, g.from_value)
         g.starved = 1
+    g.position = g.first_position + g.tick
     g.cycle = g.cycles_before
     if has_phase(s.kind) and s.counts != 0:
         turned = phase_cycles(g, s, g.tick, period_s) - g.from_phase

@@ -76,7 +76,7 @@ class Run:
         self.left -= 1
         order = self.orders.get(self.left)
         if order is not None:
-            self.posted.append(post(self.rig.block, order, 1, time_to_live_s=1e6))
+            self.posted.append(post(self.rig.block, order, 2, time_to_live_s=1e6))
         self.rig.block.fields["app_heartbeat_ns"] = now_ns
         self.rig.io.cycle(now_ns, latency_ns, tick_time_ns, missed)
         self.modes.add(int(self.rig.mode))
@@ -116,6 +116,7 @@ def test_a_run_with_all_that_may_happen_in_it_allocates_and_compiles_nothing(rig
         TICKS - 10: Opcode.START,
         60_000: Opcode.HOLD,
         50_000: Opcode.RESUME,
+        40_050: Opcode.SKIP,  # to the sine that tapers out
         40_000: Opcode.STOP,
         15_000: Opcode.START,
         5_000: Opcode.SHUTDOWN,

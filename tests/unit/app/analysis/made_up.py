@@ -17,8 +17,9 @@ Records = npt.NDArray[Any]
 
 
 def run_of(ticks: int, **channels: npt.ArrayLike) -> Records:
-    """(ticks,) TELEMETRY of a run that goes on all the time."""
+    """(ticks,) TELEMETRY of a run that goes on all the time, as of when the loop did not say where it is."""
     records = np.zeros(ticks, TELEMETRY)
+    records["program_tick"] = -1
     records["tick"] = FIRST_TICK + np.arange(ticks)
     records["mode"] = Mode.RUNNING
     for name, values in channels.items():

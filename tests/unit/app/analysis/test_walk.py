@@ -63,3 +63,25 @@ def test_a_run_whose_first_ticks_are_missing_begins_where_it_did() -> None:
     run = run_of(500)[120:]
     assert _positions(run)[FIRST_TICK + 120] == 0
     assert _positions(run, FIRST_TICK)[FIRST_TICK + 120] == 120
+
+
+def test_where_the_loop_says_what_it_skipped_the_rest_is_in_its_place() -> None:
+    run = run_of(2000)
+    run["program_tick"] = np.arange(2000)
+    run["program_tick"][500:] += 2600  # from within the first stretch into the second
+    parts = list(Walk(iter(PROGRAM), PERIOD_S).take(run))
+    assert [(p.stretch.block, p.begins, len(p.positions)) for p in parts] == [
+        (0, True, 500),
+        (1, True, 1500),
+    ]
+    assert parts[1].positions[0] == 3100
+    assert parts[1].columns["tick"][0] == FIRST_TICK + 500
+
+
+def test_a_hold_beside_a_skip_is_left_out_as_ever() -> None:
+    counted = _held()
+    told = counted.copy()
+    at = _positions(counted)
+    for i, tick in enumerate(told["tick"].tolist()):
+        told["program_tick"][i] = at.get(tick, at.get(tick - 1, 0) + 1)
+    assert _positions(told) == at

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
@@ -82,3 +83,16 @@ def test_parts_go_and_the_file_stays(tmp_path: Path) -> None:
     write_run(parquet_path(tmp_path), batches(10), {})
     remove_parts(tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["run.parquet"]
+
+
+def test_a_recording_of_before_a_channel_was_there_is_read_with_it_unknown(tmp_path: Path) -> None:
+    older = [batch.drop_columns(["program_tick"]) for batch in batches(5000)]
+    pq.write_table(pa.Table.from_batches(older), parquet_path(tmp_path))
+    samples = open_samples(tmp_path)
+    assert samples is not None
+    (chunk,) = samples.chunks(["force_n", "program_tick"], 100, 4000)
+    assert set(chunk["program_tick"].tolist()) == {-1}
+    assert chunk["force_n"][0] == 100.0
+    finest = samples.levels()[0]
+    assert finest.rows["high"]["program_tick"].max() == -1
+    assert finest.rows["high"]["force_n"].max() == 999.0
