@@ -30,7 +30,7 @@ from app.histories.store import Store
 from app.interlocks.live import LiveTable
 from app.interlocks.loop_table import LoopTable
 from app.interlocks.record import to_record as interlocks_record
-from app.interlocks.service import InterlockTables, Preset
+from app.interlocks.service import INTERLOCKS, InterlockTables, Preset
 from app.interlocks.table import Interlocks
 from app.link.leasing import LoopLease
 from app.link.life import Life
@@ -128,6 +128,7 @@ class Console:
         )
         file = presets.interlocks_file
         self.interlocks = InterlockTables(
+            INTERLOCKS,
             self.database,
             LoopTable(self.link),
             Preset(presets.interlocks, None if file is None else str(file)),
@@ -136,7 +137,7 @@ class Console:
         )
         self.drills = Drills(
             *(self.database, settings.drills_dir, self.link, self.authority.check),
-            names=lambda: [d.name for d in self.interlocks.in_force.interlocks.detectors],
+            names=lambda: [d.name for d in self.interlocks.in_force.document.detectors],
             limits=Limits.of(presets.rig),
         )
         self.live_interlocks = LiveTable(self.link, presets.interlocks)
@@ -196,7 +197,7 @@ class Console:
 
     def _in_force(self) -> InForce:
         """What a first-out is kept with."""
-        presets, interlocks = self._presets, self.interlocks.in_force.interlocks
+        presets, interlocks = self._presets, self.interlocks.in_force.document
         lease = self.authority.shown()
         return InForce(
             *(presets.controller, interlocks, presets.rig, self.settings.seed),
@@ -207,7 +208,7 @@ class Console:
         """What a run is made with besides its test."""
         return Frozen(
             controller=self._presets.controller.model_dump(mode="json"),
-            interlocks=self.interlocks.in_force.interlocks.model_dump(mode="json"),
+            interlocks=self.interlocks.in_force.document.model_dump(mode="json"),
             rig=self._presets.rig.model_dump(mode="json"),
         )
 
@@ -227,7 +228,7 @@ class Console:
     def _configure(self, link: Link) -> bool:
         """Give a loop that has just started the epoch to obey, its gains and its interlocks."""
         self.authority.look()
-        interlocks = self.interlocks.in_force.interlocks
+        interlocks = self.interlocks.in_force.document
         banks = (
             (Opcode.ADOPT_GAINS, gains_record(self._presets.controller)),
             (Opcode.ADOPT_INTERLOCKS, interlocks_record(interlocks, RIG.period_s)),

@@ -1,21 +1,10 @@
 """The revisions of the table of detectors."""
 
-from datetime import datetime
-from typing import Any
-
-from sqlalchemy import JSON, String
-from sqlalchemy.orm import Mapped, mapped_column
-
-from app.db import Base, UtcDateTime
+from app.db import Base
+from app.revisions.models import RevisionRow
 
 
-class InterlocksRevision(Base):
-    """A table as it was once adopted; never changed afterwards. The newest is in force."""
+class InterlocksRevision(RevisionRow, Base):
+    """A table as it was once adopted."""
 
     __tablename__ = "interlocks_revisions"
-
-    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
-    document: Mapped[dict[str, Any]] = mapped_column(JSON, deferred=True)
-    author: Mapped[str] = mapped_column(String(100))
-    why: Mapped[str] = mapped_column(String(500))
-    created_at: Mapped[datetime] = mapped_column(UtcDateTime)

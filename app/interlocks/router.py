@@ -15,12 +15,12 @@ from app.interlocks.schemas import (
     InterlocksOut,
     InterlocksText,
     LiveInterlocks,
-    Number,
     RevisionOut,
     TableRevision,
 )
-from app.interlocks.service import Wanted
 from app.problems import PROBLEMS, granted
+from app.revisions.kind import Wanted
+from app.revisions.schemas import Number
 
 router = APIRouter(prefix="/api/v1/interlocks", tags=["interlocks"], responses=PROBLEMS)
 
@@ -85,4 +85,4 @@ def get_difference(
 ) -> InterlocksDifference:
     """What two revisions differ in, detector by detector, in words."""
     before, after = (granted(tables.revision(number)) for number in (from_, to))
-    return shown.difference_of(before.interlocks, after.interlocks, (before.number, after.number))
+    return shown.difference_of(before.document, after.document, (before.number, after.number))

@@ -4,16 +4,11 @@ from datetime import datetime
 from enum import StrEnum
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import BaseModel, ConfigDict, Field
 
-from app.db import NO_NUL
 from app.definitions.difference import ChangeKind
 from app.interlocks.detector import Detector
-
-Number = Annotated[int, Field(ge=0, le=2**31 - 1)]
-Why = Annotated[
-    str, StringConstraints(pattern=NO_NUL, strip_whitespace=True, min_length=1, max_length=500)
-]
+from app.revisions.schemas import Reason, RevisionSummary
 
 
 class InterlocksText(BaseModel):
@@ -25,21 +20,12 @@ class InterlocksText(BaseModel):
     knowingly_weaker: Annotated[list[str], Field(max_length=1000)] = []
 
 
-class InterlocksChange(InterlocksText):
-    """Another table; `based_on` is the revision that it was made from, `lease` the epoch of one's own."""
-
-    why: Why
-    based_on: Number
-    lease: Annotated[int, Field(ge=0, le=2**53)] | None = None
+class InterlocksChange(InterlocksText, Reason):
+    """Another table; `based_on` is the revision that it was made from."""
 
 
-class TableRevision(BaseModel):
+class TableRevision(RevisionSummary):
     """A table that was once in force: by whom, when and why."""
-
-    number: int
-    author: str
-    why: str
-    created_at: datetime
 
 
 class RevisionOut(TableRevision):

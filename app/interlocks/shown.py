@@ -5,7 +5,6 @@ from typing import Any
 from app.errors import Refusal
 from app.interlocks.check_schemas import InterlocksCheck, Weakened
 from app.interlocks.difference import difference
-from app.interlocks.models import InterlocksRevision
 from app.interlocks.safeguards import GUARDED, adoptable, shortfalls
 from app.interlocks.schemas import (
     DetectorChangeOut,
@@ -15,9 +14,10 @@ from app.interlocks.schemas import (
     RevisionOut,
     TableRevision,
 )
-from app.interlocks.service import Revision
 from app.interlocks.table import Interlocks
 from app.problems import FaultOut
+from app.revisions.kind import Revision
+from app.revisions.models import RevisionRow
 
 
 def document(body: InterlocksText) -> dict[str, Any]:
@@ -25,7 +25,7 @@ def document(body: InterlocksText) -> dict[str, Any]:
     return {"detectors": body.detectors, "knowingly_weaker": body.knowingly_weaker}
 
 
-def in_force(revision: Revision, *, in_loop: bool) -> InterlocksOut:
+def in_force(revision: Revision[Interlocks], *, in_loop: bool) -> InterlocksOut:
     """The newest revision."""
     return InterlocksOut(
         revision=revision.number,
@@ -33,26 +33,26 @@ def in_force(revision: Revision, *, in_loop: bool) -> InterlocksOut:
         why=revision.why,
         created_at=revision.created_at,
         in_loop=in_loop,
-        detectors=revision.interlocks.detectors,
-        knowingly_weaker=revision.interlocks.knowingly_weaker,
+        detectors=revision.document.detectors,
+        knowingly_weaker=revision.document.knowingly_weaker,
         guarded=GUARDED,
     )
 
 
-def summary(row: InterlocksRevision) -> TableRevision:
+def summary(row: RevisionRow) -> TableRevision:
     """A revision without its table."""
     return TableRevision.model_validate(row, from_attributes=True)
 
 
-def revision(found: Revision) -> RevisionOut:
+def revision(found: Revision[Interlocks]) -> RevisionOut:
     """A revision with its table."""
     return RevisionOut(
         number=found.number,
         author=found.author,
         why=found.why,
         created_at=found.created_at,
-        detectors=found.interlocks.detectors,
-        knowingly_weaker=found.interlocks.knowingly_weaker,
+        detectors=found.document.detectors,
+        knowingly_weaker=found.document.knowingly_weaker,
     )
 
 
@@ -72,7 +72,7 @@ def difference_of(
     )
 
 
-def checked(table: Interlocks | Refusal, now: Revision) -> InterlocksCheck:
+def checked(table: Interlocks | Refusal, now: Revision[Interlocks]) -> InterlocksCheck:
     """Whether a table could be put in force on top of this revision."""
     if isinstance(table, Refusal):
         errors = [FaultOut.of(fault) for fault in table.faults]
@@ -83,5 +83,5 @@ def checked(table: Interlocks | Refusal, now: Revision) -> InterlocksCheck:
         valid=not isinstance(found, Refusal),
         errors=[FaultOut.of(fault) for fault in faults],
         weakened=[Weakened(detector=s.detector, text=s.text) for s in shortfalls(table)],
-        difference=difference_of(now.interlocks, table, (now.number, None)),
+        difference=difference_of(now.document, table, (now.number, None)),
     )

@@ -13,7 +13,7 @@ from app.db import Database
 from app.documents.writing import to_data
 from app.errors import Code, Refusal
 from app.interlocks.defaults import default_interlocks
-from app.interlocks.service import InterlockTables, Preset, Revision, Wanted
+from app.interlocks.service import INTERLOCKS, InterlockTables, Preset, Revision, Wanted
 from app.interlocks.table import Interlocks
 from rtcore.codes import Opcode
 from tests.unit.app.interlocks.test_safeguards import table
@@ -27,14 +27,14 @@ OTHER = table("displacement", threshold=0.02)
 class Rig:
     """Tables over a database that can be taken away, and a loop; `told` are the tables that were announced."""
 
-    def __init__(self, database: Database, preset: Preset | None = None) -> None:
+    def __init__(self, database: Database, preset: Preset[Interlocks] | None = None) -> None:
         self.database = database
         self.loop = VirtualLoop()
         self.locked = self.loop_dies_too = False
         self.told: list[Interlocks] = []
         book: Any = self
         preset = preset or Preset(SHIPPED)
-        self.tables = InterlockTables(book, self.loop, preset, Lock(), self.told.append)
+        self.tables = InterlockTables(INTERLOCKS, book, self.loop, preset, Lock(), self.told.append)
         self.tables.open()
 
     def reading(self) -> Any:
@@ -50,7 +50,7 @@ class Rig:
 
     def change(
         self, wanted: Interlocks, based_on: int, why: str = "Softer unit"
-    ) -> Revision | Refusal:
+    ) -> Revision[Interlocks] | Refusal:
         return self.tables.change(Wanted(wanted, why, based_on, "Ann"))
 
     def stored(self) -> list[tuple[int, str, str]]:
@@ -62,14 +62,14 @@ def rig(database: Database) -> Rig:
     return Rig(database)
 
 
-def refused(answer: Revision | Refusal) -> Refusal:
+def refused(answer: Revision[Interlocks] | Refusal) -> Refusal:
     assert isinstance(answer, Refusal)
     return answer
 
 
 def test_the_first_start_puts_the_shipped_table_in_force(rig: Rig) -> None:
     assert rig.stored() == [(1, "console", "As shipped")]
-    assert rig.tables.in_force.interlocks == SHIPPED
+    assert rig.tables.in_force.document == SHIPPED
     assert rig.told == [SHIPPED]
     assert Rig(rig.database).stored() == rig.stored()  # the second start
 
@@ -90,7 +90,7 @@ def test_a_change_is_in_the_loop_in_the_book_and_in_the_audit(rig: Rig) -> None:
         assert '"force"' in str(kept).replace("'", '"')
         assert str(wanted.detectors[0].threshold) in str(kept)
     after = Rig(rig.database)  # the next start
-    assert after.tables.in_force.interlocks == GENTLER
+    assert after.tables.in_force.document == GENTLER
 
 
 def test_who_comes_second_is_told_of_the_first(rig: Rig) -> None:
@@ -139,7 +139,7 @@ def test_a_loop_that_cannot_take_it_back_is_given_it_later(rig: Rig) -> None:
     with pytest.raises(OperationalError):
         rig.change(GENTLER, 1)
     assert rig.loop.owed == 1
-    assert rig.tables.in_force.interlocks == SHIPPED
+    assert rig.tables.in_force.document == SHIPPED
 
 
 def test_what_is_weaker_needs_a_word_and_a_stale_lease_is_refused_by_the_loop(rig: Rig) -> None:
@@ -158,7 +158,7 @@ def test_an_old_revision_is_restored_by_giving_it_again(rig: Rig) -> None:
     rig.change(GENTLER, 1)
     first = rig.tables.revision(1)
     assert isinstance(first, Revision)
-    again = rig.change(first.interlocks, 2, "As it was")
+    again = rig.change(first.document, 2, "As it was")
     assert isinstance(again, Revision)
     assert again.number == 3
     assert rig.loop.has(SHIPPED)
@@ -170,7 +170,7 @@ def test_revision_0_is_the_one_as_shipped_and_there_is_none_beyond_the_newest(ri
     rig.change(GENTLER, 1)
     zero = rig.tables.revision(0)
     assert isinstance(zero, Revision)
-    assert zero.interlocks == SHIPPED
+    assert zero.document == SHIPPED
     beyond = rig.tables.revision(9)
     assert isinstance(beyond, Refusal)
     assert beyond.detail == "The interlocks have no revision 9: the newest is 2"
@@ -181,7 +181,7 @@ def test_a_file_that_differs_is_a_revision_of_the_console(rig: Rig) -> None:
     preset = Preset(GENTLER, "mine.yaml")
     started = Rig(rig.database, preset)
     assert started.stored()[0] == (3, "console", "From the file mine.yaml")
-    assert started.tables.in_force.interlocks == GENTLER
+    assert started.tables.in_force.document == GENTLER
     assert len(Rig(rig.database, preset).stored()) == 3  # it is in force already
 
 
@@ -193,5 +193,5 @@ def test_a_revision_that_cannot_be_read_any_more_makes_room_for_the_shipped_one(
         row = session.merge(rig.tables.revisions(None, 1)[0])
         row.document = document
     started = Rig(rig.database)
-    assert started.tables.in_force.interlocks == SHIPPED
+    assert started.tables.in_force.document == SHIPPED
     assert started.stored()[0][2] == "As shipped: revision 2 cannot be read any more"
