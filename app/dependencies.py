@@ -17,6 +17,7 @@ from app.histories.store import Store
 from app.interlocks.live import LiveTable
 from app.interlocks.service import InterlockTables
 from app.prediction.service import Predictions
+from app.reports.service import Reports
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.runs.predicted import RunPredictions
@@ -117,6 +118,10 @@ def _live_interlocks(this: ThisConsole) -> LiveTable:
     return this.live_interlocks
 
 
+def _reports(this: ThisConsole) -> Reports:
+    return this.reports
+
+
 def _starter(this: ThisConsole) -> Starter:
     return this.starter
 
@@ -142,3 +147,4 @@ RunPredictionsService = Annotated[RunPredictions, Depends(_run_predictions)]
 InterlocksService = Annotated[InterlockTables, Depends(_interlocks)]
 LiveInterlocksTable = Annotated[LiveTable, Depends(_live_interlocks)]
 StarterService = Annotated[Starter, Depends(_starter)]
+ReportsService = Annotated[Reports, Depends(_reports)]

@@ -18,6 +18,7 @@ from app.histories.router import router as histories_router
 from app.interlocks.router import router as interlocks_router
 from app.live.router import router as live_router
 from app.prediction.router import router as predictions_router
+from app.reports.router import router as reports_router
 from app.rigs.router import router as rig_router
 from app.runs.predicted_router import router as predicted_router
 from app.runs.results_router import router as results_router
@@ -34,6 +35,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     predictions_router,
     tests_router,
     histories_router,
+    reports_router,
     runs_router,
     samples_router,
     results_router,

@@ -27,6 +27,8 @@ class Settings(BaseSettings):
     rig_file: Path | None = None  # None: the rig of the paper
     controller_file: Path | None = None  # None: as shipped, as for the interlocks
     interlocks_file: Path | None = None
+    report_logo: Path | None = None  # SVG, PNG or JPEG, on the first page of reports
+    report_template: Path | None = None  # typst; None: ours (app/reports/template/report.typ)
     seed: Annotated[int, Field(ge=0)] = 0
     margin_us: Annotated[int, Field(ge=0, le=1_000)] = 60
     reserve_bytes: Annotated[int, Field(ge=0)] = 256_000_000  # of the disk, never for samples

@@ -43,6 +43,8 @@ from app.presets import Presets
 from app.recording.clerk import Clerk
 from app.recording.recorder import Recorder
 from app.recording.recovery import close_orphans, sweep
+from app.reports.orders import Sources
+from app.reports.service import Reports
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.runs.entering import Frozen
@@ -113,6 +115,9 @@ class Console:
             lambda: self.link.ask(Opcode.STOP),
         )
         self.run_predictions = RunPredictions(self.database, settings.runs_dir)
+        look = (settings.report_logo, settings.report_template)
+        sources = Sources(settings.database_address, settings.runs_dir, *look)
+        self.reports = Reports(self.database, sources)
         self.run_windows = RunWindows(self.database, settings.runs_dir)
         self.predictions = Predictions(presets.controller, presets.interlocks, presets.rig)
         needs = Needs(
@@ -176,6 +181,7 @@ class Console:
         """Take the load off, depressurise, end the loop, write down what was recorded."""
         self.predictions.close()
         self._reruns.close()
+        self.reports.close()
         self._watcher.close()
         self.drills.close()
         self._lease_keeper.close()

@@ -1,9 +1,9 @@
 """The report of a run: a table of sections, each present where it has something to say."""
 
 from collections.abc import Callable, Iterable
-from enum import StrEnum
 from typing import NamedTuple
 
+from app.reports.orders import Extent
 from app.reports.report import Report, Section
 from app.reports.sections.against import across
 from app.reports.sections.blocks import blocks
@@ -18,13 +18,6 @@ from app.reports.sections.time import overview, time
 from app.reports.subject import Subject
 
 Progress = Callable[[float], None]
-
-
-class Extent(StrEnum):
-    """How much is told: what fits on two pages or so, or all of it."""
-
-    BRIEF = "brief"
-    FULL = "full"
 
 
 class _Entry(NamedTuple):

@@ -1,7 +1,5 @@
 """Makes a report's file: the work of a process of its own, which opens the database and the samples itself."""
 
-from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
 
 from app.db import Database
@@ -9,39 +7,13 @@ from app.errors import Refusal
 from app.jobs.apart import Report as Tell
 from app.recording.whole_file import whole_file
 from app.reports.branding import Branding, branding
-from app.reports.collect import Extent, collect
+from app.reports.collect import collect
 from app.reports.of_run import subject_of_run
+from app.reports.orders import Format, Order, Sources
 from app.reports.rendering import render_html, render_pdf
 from app.reports.report import Report
 
 COLLECTED = 0.8  # of the work, nearly
-
-
-class Format(StrEnum):
-    """What a report is written as."""
-
-    PDF = "pdf"
-    HTML = "html"
-
-
-@dataclass(frozen=True)
-class Sources:
-    """Where a console keeps what reports are made from, and what they are made to look like."""
-
-    database_url: str
-    runs_dir: Path
-    logo: Path | None = None
-    template: Path | None = None
-
-
-@dataclass(frozen=True)
-class Order:
-    """A report to make, and the file that it goes to."""
-
-    run_id: int
-    extent: Extent
-    format: Format
-    path: Path
 
 
 def make(tell: Tell, sources: Sources, order: Order) -> Refusal | None:
@@ -65,6 +37,7 @@ def write(report: Report, look: Branding, form: Format, path: Path) -> Refusal |
     made = render_pdf(report, look) if form is Format.PDF else render_html(report, look)
     if isinstance(made, Refusal):
         return made
+    path.parent.mkdir(parents=True, exist_ok=True)
     with whole_file(path) as file:
         file.write(made)
     return None

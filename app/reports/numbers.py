@@ -12,7 +12,19 @@ _SCALES = {  # the unit that a report uses, and how many of it one of ours is
     "Pa": ("bar", 1e-5),
     "m³/s": ("l/min", 6e4),
 }
-_ENDINGS = ("_octaves_s", "_n_s", "_m_s", "_rad_s", "_percent", "_deg", "_hz", "_pa", "_n", "_m", "_s")
+_ENDINGS = (
+    "_octaves_s",
+    "_n_s",
+    "_m_s",
+    "_rad_s",
+    "_percent",
+    "_deg",
+    "_hz",
+    "_pa",
+    "_n",
+    "_m",
+    "_s",
+)
 _SHORT_S = ((1.0, 1.0, "s"), (1e-3, 1e3, "ms"), (0.0, 1e6, "µs"))
 
 

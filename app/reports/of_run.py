@@ -1,4 +1,4 @@
-"""What a report needs of a run of the console: from the database and the run's folder, nothing of the live console."""
+"""What a report needs of a run of the console: from its database and the run's folder alone."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -71,11 +71,10 @@ def _view(
     found = envelope(samples, names, first, last, count if count <= 3 * points else points)
     scales = {name: scale_of(CHANNEL[name].unit) for name in names}
     low = {name: found.low[name] * scales[name] for name in names}
-    if found.bin_ticks == 1:
-        high = low  # the very same: then it is no band
-    else:
-        high = {name: found.high[name] * scales[name] for name in names}
-    return View((found.ticks - zero) * period_s, low, high)
+    bands = found.bin_ticks > 1  # else both are the very same, and no band
+    high = {name: found.high[name] * scales[name] for name in names} if bands else low
+    times_s: Floats = (found.ticks - zero).astype(np.float64) * period_s
+    return View(times_s, low, high)
 
 
 def ticks_of(

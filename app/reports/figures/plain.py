@@ -34,9 +34,7 @@ class Line:
     joined: bool = True
 
 
-def against(
-    pairs: Sequence[tuple[str, str, Sequence[Line]]], height_mm: float = 75.0
-) -> bytes:
+def against(pairs: Sequence[tuple[str, str, Sequence[Line]]], height_mm: float = 75.0) -> bytes:
     """SVG of axes side by side: what is across, what is up, and the lines of each."""
     with styled():
         drawn = canvas(height_mm)
@@ -44,9 +42,13 @@ def against(
         for axes, (across, up, lines) in zip(every, pairs, strict=True):
             for line, (colour, dash, marker) in zip(lines, _cycled(len(lines)), strict=True):
                 if line.joined:
-                    axes.plot(line.x, line.y, ls=dash, color=colour, lw=0.8, label=line.label or None)
+                    axes.plot(
+                        line.x, line.y, ls=dash, color=colour, lw=0.8, label=line.label or None
+                    )
                 else:
-                    axes.plot(line.x, line.y, marker, color=colour, ms=2.0, label=line.label or None)
+                    axes.plot(
+                        line.x, line.y, marker, color=colour, ms=2.0, label=line.label or None
+                    )
             axes.set_xlabel(across)
             axes.set_ylabel(up)
             tell(axes)
@@ -63,7 +65,7 @@ def stacked(
         for axes, (up, lines) in zip(every, rows, strict=True):
             for line, (colour, dash, marker) in zip(lines, _cycled(len(lines)), strict=True):
                 shown = {"ls": dash} if line.joined else {"ls": "", "marker": marker, "ms": 2.0}
-                axes.plot(line.x, line.y, color=colour, label=line.label or None, **shown)  # type: ignore[arg-type]
+                axes.plot(line.x, line.y, color=colour, label=line.label or None, **shown)
             if logarithmic:
                 axes.set_xscale("log")
             axes.set_ylabel(up)
@@ -84,7 +86,9 @@ def bars(names: Sequence[str], shares: Sequence[float], notes: Sequence[str], ac
         axes.barh(places, shown, height=0.6, color=np.where(over, LIMIT, MEASURED))
         axes.axvline(1.0, color=INK, lw=0.8)
         for place, share, note in zip(places, shown, notes, strict=True):
-            axes.text(max(float(share), 0.0) + 0.015, place, note, va="center", fontsize=6.0, color=INK)
+            axes.text(
+                max(float(share), 0.0) + 0.015, place, note, va="center", fontsize=6.0, color=INK
+            )
         axes.set_yticks(places, names)
         axes.set_xlim(0.0, 1.55)
         axes.set_xticks(np.arange(0.0, 1.01, 0.25), [f"{p} %" for p in range(0, 101, 25)])
@@ -105,7 +109,9 @@ def histogram(
         for axes, (name, found) in zip(every, counts, strict=True):
             last = int(np.flatnonzero(found)[-1]) + 2 if found.any() else 2
             edges = np.arange(last + 1) * bin_us
-            axes.stairs(np.maximum(found[:last], 0.5), edges, baseline=0.5, fill=True, color=MEASURED)
+            axes.stairs(
+                np.maximum(found[:last], 0.5), edges, baseline=0.5, fill=True, color=MEASURED
+            )
             axes.set_yscale("log")
             axes.set_ylim(bottom=0.5)
             axes.set_title(name, fontsize=7.0, color=INK, loc="left")

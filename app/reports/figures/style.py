@@ -52,6 +52,7 @@ _STYLE: dict[str, Any] = {
     "ytick.minor.width": 0.3,
     "figure.constrained_layout.use": True,
     "path.simplify": True,
+    "text.parse_math": False,  # a name with dollars in it is a name
     "svg.fonttype": "path",
     "svg.hashsalt": "forcerig",
 }
@@ -60,7 +61,10 @@ _STYLE: dict[str, Any] = {
 @contextmanager
 def styled() -> Iterator[None]:
     """Draw in here."""
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context():
+        mpl.rcdefaults()  # whatever the machine's own matplotlibrc says
+        for name, value in _STYLE.items():
+            mpl.rcParams[name] = value  # type: ignore[index]  # mypy wants each name as a literal
         yield
 
 

@@ -29,5 +29,7 @@ def across(subject: Subject) -> Section | None:
         ("Displacement of the unit (mm)", "Force (kN)", [Line("", moved, force)]),
         ("Setpoint (kN)", "Force (kN)", [Line("", asked, force)]),
     )
-    caption = f"Force against displacement and against its setpoint, {duration(shown_s)} in the middle"
+    caption = (
+        f"Force against displacement and against its setpoint, {duration(shown_s)} in the middle"
+    )
     return Section("X-Y", (Figure(caption, against(pairs), caption),))

@@ -41,7 +41,9 @@ def _block(subject: Subject, block: BlockMeasurements) -> Section:
     table = table_of(block.measurements, f"Block {block.block + 1}")
     if table is not None:
         items.append(table)
-    return Section(f"Block {block.block + 1}: {spoken(block.kind).lower()}", tuple(items), own_page=True)
+    return Section(
+        f"Block {block.block + 1}: {spoken(block.kind).lower()}", tuple(items), own_page=True
+    )
 
 
 def _shown_s(asked: dict[str, object]) -> float:

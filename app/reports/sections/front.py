@@ -37,7 +37,9 @@ def about(subject: Subject) -> tuple[Item, ...]:
 def _facts(subject: Subject) -> list[tuple[str, str]]:
     frozen, noted = subject.frozen, subject.noted
     revision = "" if subject.revision is None else f", revision {subject.revision}"
-    clock = f"virtual rig and clock, seed {subject.virtual_seed}" if subject.virtual else "real time"
+    clock = (
+        f"virtual rig and clock, seed {subject.virtual_seed}" if subject.virtual else "real time"
+    )
     facts = [
         ("Test", f"{subject.test_name}{revision}"),
         ("Test id", subject.test_id),

@@ -23,7 +23,9 @@ def margins(subject: Subject) -> Section | None:
         caption = "How much of each detector's limit the test uses, on the virtual rig"
         items.append(Figure(caption, svg, caption))
     items += [Words(reason.text) for reason in subject.prediction.reasons]
-    unsaid = [spoken(m.detector).lower() for m in subject.prediction.margins if m.margin_share is None]
+    unsaid = [
+        spoken(m.detector).lower() for m in subject.prediction.margins if m.margin_share is None
+    ]
     if unsaid:
         items.append(Words(f"Nothing can be predicted of: {', '.join(unsaid)}."))
     return Section("Margins to the detectors", tuple(items)) if items else None

@@ -70,19 +70,27 @@ def _timing(subject: Subject) -> list[Item]:
         ("Period", duration(subject.period_s)),
     ]
     for name, words in zip(NAMES, ("Wake-up after its deadline", "Tick"), strict=True):
-        told = [f"{p:g} % within {duration(found.quantile_s(name, p / 100))}" for p in (50, 99, 99.99)]
+        told = [
+            f"{p:g} % within {duration(found.quantile_s(name, p / 100))}" for p in (50, 99, 99.99)
+        ]
         facts.append((words, f"{', '.join(told)}; longest {duration(found.longest[name])}"))
     counts = [
         ("Wake-up after its deadline", found.counts[NAMES[0]]),
         ("Time that a tick took", found.counts[NAMES[1]]),
     ]
-    caption = "Ticks by how late they began and how long they took; the last bin has all that is longer"
+    caption = (
+        "Ticks by how late they began and how long they took; the last bin has all that is longer"
+    )
     svg = histogram(counts, BIN_S * 1e6, "µs")
     return [Facts(tuple(facts)), Figure(caption, svg, caption)]
 
 
 def _conditions(subject: Subject) -> Table:
-    columns = (Column("Condition", share=2.0), Column("Had", share=0.7), Column("What was got, or why not", share=6.0))
+    columns = (
+        Column("Condition", share=2.0),
+        Column("Had", share=0.7),
+        Column("What was got, or why not", share=6.0),
+    )
     rows = tuple(
         Row(
             (str(c["name"]), "yes" if c["had"] else "no", str(c["reason"])),

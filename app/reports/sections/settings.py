@@ -36,12 +36,12 @@ def _leaves(value: Any, path: str = "") -> Iterator[tuple[str, str]]:
     elif isinstance(value, Sequence) and not isinstance(value, str):
         yield from _list(value, path)
     elif value is not None:
-        yield path, _written(path, value)
+        yield path, _written(value)
 
 
 def _list(values: Sequence[Any], path: str) -> Iterator[tuple[str, str]]:
     if not any(isinstance(value, Mapping | list | tuple) for value in values):
-        shown = ", ".join(_written(path, value) for value in values[:LONGEST])
+        shown = ", ".join(_written(value) for value in values[:LONGEST])
         more = f" … {len(values):,} in all" if len(values) > LONGEST else ""
         yield path, (shown + more) or "none"
         return
@@ -51,14 +51,12 @@ def _list(values: Sequence[Any], path: str) -> Iterator[tuple[str, str]]:
         yield path, f"{len(values) - LONGEST:,} more"
 
 
-def _written(path: str, value: Any) -> str:
+def _written(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if not isinstance(value, int | float):
         return str(value)
-    name = path.rsplit(".", 1)[-1]
-    unit = unit_of(name)
-    return digits(float(value), 6) if unit is None else quantity(float(value), unit)
+    return digits(float(value), 6)  # the unit is the last word of the name
 
 
 def _detectors(document: Mapping[str, Any]) -> Table:
@@ -80,7 +78,12 @@ def _detector(d: Mapping[str, Any]) -> Row:
     unit = _unit_of(d["quantity"])
     lasting = quantity(d["persistence_s"], "s") if d.get("persistence_s") else "at once"
     action = d["action"] if d.get("enabled", True) else "off"
-    cells = (spoken(d["name"]), f"{spoken(d['quantity'])}{form}", f"{limit} {unit}".strip(), lasting)
+    cells = (
+        spoken(d["name"]),
+        f"{spoken(d['quantity'])}{form}",
+        f"{limit} {unit}".strip(),
+        lasting,
+    )
     return Row((*cells, action.replace("_", " ")))
 
 
