@@ -29,7 +29,7 @@ Data = Annotated[
 RigFile = Annotated[Path | None, typer.Option(help="Rig parameters that differ from the shipped.")]
 Settings = Annotated[Path | None, typer.Option(help="Controller settings; as shipped without.")]
 OutFile = Annotated[Path | None, typer.Option(help="Write all channels to this Parquet file.")]
-Report = Annotated[Path | None, typer.Option(help="Not available yet.")]
+Report = Annotated[Path | None, typer.Option(help="Write a report to this file, .pdf or .html.")]
 Seed = Annotated[int, typer.Option(min=0, help="Of the sensors' noise.")]
 Host = Annotated[str | None, typer.Option(help="Address to listen on.", show_default="127.0.0.1")]
 Port = Annotated[

@@ -11,6 +11,7 @@ from app.commands.output import (
     progress_bar,
     side_console,
 )
+from app.commands.reported import FORMATS, reporting
 from app.commands.simulated import print_measured, print_prediction
 from app.commands.which_test import find_definition
 from app.controller.record import load_controller
@@ -50,12 +51,15 @@ def run(request: Request) -> Exit:
         simulating = begin_simulation(setup, progress)
         if isinstance(simulating, Refusal):
             return print_refusal(simulating, request.as_json)
-        unwritten = _run_through(simulating, request.out)
+        with reporting(request.test, request.out, request.report) as wanted:
+            unwritten = _run_through(simulating, wanted.recorded) or wanted.write(simulating)
     if unwritten is not None:
         return print_refusal(unwritten, request.as_json)
     if request.out is not None:
         ticks = simulating.through.ticks
         side_console().print(f"Wrote {ticks:,} ticks to {request.out}", markup=False)
+    if request.report is not None:
+        side_console().print(f"Wrote the report to {request.report}", markup=False)
     told = account(simulating)
     if request.as_json:
         print_json(told)
@@ -88,11 +92,13 @@ def _run_through(simulating: Simulating, path: Path | None) -> Refusal | None:
 
 
 def _setup(request: Request) -> Setup | Refusal:
-    if request.report is not None:
-        detail = "--report is not available yet in this version of forcerig: leave it out"
+    for option, path in (("--out", request.out), ("--report", request.report)):
+        if path is not None and not path.absolute().parent.is_dir():
+            return Refusal(Code.INVALID_REQUEST, f"{option}: there is no folder {path.parent}")
+    if request.report is not None and request.report.suffix.lower() not in FORMATS:
+        known = " or ".join(FORMATS)
+        detail = f"--report: {request.report} is none of {known}: its name says what it is to be"
         return Refusal(Code.INVALID_REQUEST, detail)
-    if request.out is not None and not request.out.absolute().parent.is_dir():
-        return Refusal(Code.INVALID_REQUEST, f"--out: there is no folder {request.out.parent}")
     definition = find_definition(request.test)
     if isinstance(definition, Refusal):
         return definition
