@@ -25,6 +25,7 @@ from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.runs.starting import Starter
+from app.scene.service import Scene
 from app.storage.service import Storage
 from app.system.service import System
 from app.wiring import Console
@@ -90,6 +91,10 @@ def _results(this: ThisConsole) -> Results:
     return this.results
 
 
+def _scene(this: ThisConsole) -> Scene:
+    return this.scene
+
+
 def _run_windows(this: ThisConsole) -> RunWindows:
     return this.run_windows
 
@@ -139,6 +144,7 @@ FirstOutsAgain = Annotated[Again, Depends(_first_outs_again)]
 DrillsService = Annotated[Drills, Depends(_drills)]
 RunsService = Annotated[Runs, Depends(_runs)]
 ResultsService = Annotated[Results, Depends(_results)]
+SceneService = Annotated[Scene, Depends(_scene)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
 StorageService = Annotated[Storage, Depends(_storage)]
 SystemService = Annotated[System, Depends(_system)]

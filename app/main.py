@@ -73,7 +73,9 @@ def create_app(
         with listening_for_stop(stop_door, hosts, console.access.book, console.stops):
             await run_sync(_invite, console, url)
             console.broadcaster.start()
+            console.scene.keeper.start()
             yield
+            await console.scene.keeper.stop()
             await console.broadcaster.stop()
             await run_sync(console.close)
 

@@ -24,6 +24,7 @@ from app.runs.predicted_router import router as predicted_router
 from app.runs.results_router import router as results_router
 from app.runs.router import router as runs_router
 from app.runs.samples_router import router as samples_router
+from app.scene.router import router as scene_router
 from app.storage.router import router as storage_router
 from app.system.router import router as system_router
 
@@ -48,6 +49,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     system_router,
     interlocks_router,
     live_router,
+    scene_router,
     auth_router,
     users_router,
     credentials_router,

@@ -28,7 +28,7 @@ def serve_console(app: FastAPI, folder: Path = FOLDER) -> None:
         file = _file(folder, path)
         if file is not None:
             return FileResponse(file, headers=_FOR_EVER if is_asset else _ASK_AGAIN)
-        if is_asset or path.startswith("api/"):
+        if is_asset or path.startswith(("api/", "scene")):
             raise HTTPException(404, f"There is nothing at /{path}")
         index = folder / "index.html"
         if not index.is_file():

@@ -56,6 +56,8 @@ from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.runs.starting import Needs, Starter
+from app.scene.moments import Moments
+from app.scene.service import Scene
 from app.settings import Settings
 from app.stopping.service import Stops
 from app.storage.service import Storage, StorageSettings
@@ -147,6 +149,12 @@ class Console:
         )
         self.live_interlocks = LiveTable(self.link, presets.interlocks)
         self.broadcaster = Broadcaster(lambda: self.link.life, self.status.read)
+        self.scene = Scene(
+            settings.data_dir,
+            lambda: self.link.life,
+            lambda: presets.rig,
+            Moments(self.database, self.run_windows),
+        )
         self.system = System(
             self.database, settings.data_dir, lambda: self.link.life, self.broadcaster.clients
         )
