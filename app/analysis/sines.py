@@ -102,6 +102,11 @@ class SineFit:
         sums = self._blocks.get(block, {})
         return [_read(block, sine, found) for sine, found in sums.items()]
 
+    def harmonics_of_block(self, block: int) -> list[tuple[Harmonic, ...]]:
+        """The harmonics of each of the sines `of_block`, from the first to the tenth at most."""
+        self._file()
+        return [_harmonics(found) for found in self._blocks.get(block, {}).values()]
+
     def of_run(self) -> list[FoundSine]:
         """What the sines of the run amount to, each once; `block` is the first that has it."""
         self._file()
@@ -138,3 +143,15 @@ def _read(block: int, sine: Sine, sums: SineSums) -> FoundSine:
     return FoundSine(
         block, sine, float(2 * abs(first)), float(parts[middle].real), phase_deg, distortion
     )
+
+
+def _harmonics(sums: SineSums) -> tuple[Harmonic, ...]:
+    parts, setpoint = solve(sums.force, sums.ones), solve(sums.command, sums.ones)
+    middle = len(parts) // 2
+    orders = np.arange(1, middle + 1)
+    turn = np.exp(-1j * orders * np.angle(setpoint[middle + 1]))
+    amplitudes_n = 2 * np.abs(parts[middle + 1 :])
+    phases_deg = np.degrees(np.angle(parts[middle + 1 :] * turn))
+    shares = 100 * amplitudes_n / amplitudes_n[0] if amplitudes_n[0] > 0 else amplitudes_n * np.nan
+    columns = (column.tolist() for column in (orders, amplitudes_n, phases_deg, shares))
+    return tuple(Harmonic(*row) for row in zip(*columns, strict=True))

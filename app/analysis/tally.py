@@ -74,6 +74,11 @@ class Tally:
             return math.nan
         return float(100 * (1 - math.sqrt(self.sums[_FIT_SQ] / ticks) / peak_n))
 
+    @property
+    def goodness_peak_n(self) -> float | None:
+        """The peak of the force that G is normalised by: where there was something to compare with."""
+        return float(self.peaks[_FIT_FORCE]) if self.sums[_FIT_TICKS] else None
+
     def _peak(self, which: int) -> float | None:
         return float(self.peaks[which]) if self.ticks else None
 
