@@ -12,13 +12,18 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.special import stdtrit
 
 from app.analysis.phasors import Complex, Phasors, normal_matrix, solve
+from app.analysis.response.curve import (
+    CONFIDENCE,
+    half_width,
+    magnitude_interval,
+    phase_interval_deg,
+)
 from app.analysis.response.point import Interval
 from app.analysis.response.settling import Drift, drift_of, is_unlikely, residual_power
+from rtcore.compiled import Array
 
-CONFIDENCE = 0.95
 MOST_LINES = 8  # on each side: 32 degrees of freedom, a factor of 2.04
 HALF_A_TICK = 0.5  # a whole cycle may end between ticks
 LEAST_SHARE = 1e-9  # of the mean: less is what rounding leaves of a channel that stands still
@@ -36,18 +41,9 @@ class Estimate:
     steady: bool
 
     @property
-    def half_width(self) -> float:
-        """Of the 95 % interval along any one direction in the plane of the gain; Student's t."""
-        if self.lines == 0:
-            return math.inf
-        t = float(stdtrit(2 * self.lines, 0.5 + CONFIDENCE / 2))
-        return t * math.sqrt(self.variance / 2)
-
-    @property
     def gain_95(self) -> Interval:
         """Of the magnitude."""
-        size, wide = abs(self.gain), self.half_width
-        return Interval(max(0.0, size - wide), size + wide)
+        return Interval(*map(float, magnitude_interval(np.array(self.gain), self._half_width)))
 
     @property
     def phase_deg(self) -> float:
@@ -57,9 +53,7 @@ class Estimate:
     @property
     def phase_95_deg(self) -> Interval:
         """Of the phase; a whole turn where nothing is known of it."""
-        size, wide = abs(self.gain), self.half_width
-        half = math.degrees(math.asin(wide / size)) if wide < size else 180.0
-        return Interval(self.phase_deg - half, self.phase_deg + half)
+        return Interval(*map(float, phase_interval_deg(np.array(self.gain), self._half_width)))
 
     @property
     def coherence(self) -> float:
@@ -67,6 +61,10 @@ class Estimate:
         explained = abs(self.gain) ** 2
         noise = self.variance * self.cycles
         return float(explained / (explained + noise)) if explained > 0 else 0.0
+
+    @property
+    def _half_width(self) -> Array:
+        return half_width(np.array(self.variance), np.array(self.lines))
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,9 @@ _TABLE = (
     Transfer("force", "force_command_n", "force_n", "1", "Force to its setpoint: the closed loop"),
     Transfer("plant", "valve_command", "force_n", "N", "Force to valve command: the plant"),
     Transfer(
+        "motion", "valve_command", "velocity_m_s", "m/s", "Rod velocity to valve command: the plant"
+    ),
+    Transfer(
         "disturbance",
         "velocity_m_s",
         "force_n",
