@@ -155,6 +155,15 @@ class Repeat(Document):
     times: Times
     blocks: "tuple[Block, ...]" = Field(min_length=1, max_length=RIG.block_limit)
 
+    @model_validator(mode="after")
+    def _checked(self) -> Self:
+        if any(isinstance(b, FrequencyResponse) and b.is_adaptive for b in self.blocks):
+            message = (
+                "a frequency response that adapts cannot be repeated: put it beside the repeat"
+            )
+            raise wrong("blocks", message)
+        return self
+
 
 Block = Annotated[
     Hold | Ramp | Step | Harmonic | Layers | Sweep | FrequencyResponse | TimeHistory | Repeat,

@@ -57,20 +57,26 @@ def sweep(
 
 
 def stepped(
-    sines: Sequence[Sine], settle_cycles: int, measure_cycles: int, shortest_s: float
+    points: Sequence[tuple[Sine, float]],
+    last_hz: float,
+    settle_cycles: int,
+    measure_cycles: int,
+    shortest_s: float,
 ) -> list[Node]:
-    """Sine after sine: blended into, settled, and counted; the last tapers out."""
+    """Sine after sine: blended into, settled, and counted; the last tapers out.
+
+    With each is the slowest frequency, its own or of what may be played before it; `last_hz` is that before
+    the end.
+    """
     nodes: list[Node] = []
-    before_hz = sines[0].frequency_hz
-    for sine in sines:
+    for sine, slower_hz in points:
         hz = sine.frequency_hz
-        nodes.append(_steady(sine, _blend_s(min(before_hz, hz), shortest_s), counts=0))
+        nodes.append(_steady(sine, _blend_s(slower_hz, shortest_s), counts=0))
         if settle_cycles:
             nodes.append(_steady(sine, settle_cycles / hz, counts=0))
         nodes.append(_steady(sine, measure_cycles / hz, counts=1))
-        before_hz = hz
-    last_s = _blend_s(before_hz, shortest_s)
-    return [*nodes, _taper_out(sines[-1], whole_ticks(last_s))]
+    last, _ = points[-1]
+    return [*nodes, _taper_out(last, whole_ticks(_blend_s(last_hz, shortest_s)))]
 
 
 def course(track: Track, repeats: int, lead_s: float) -> list[Node]:

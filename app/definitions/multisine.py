@@ -6,9 +6,10 @@ Renneboog (IEEE Trans. Instrum. Meas. 37, 1988): clip the signal, keep the phase
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +17,8 @@ import numpy.typing as npt
 from app.definitions.limits import RIG
 from app.histories.history import History, from_values
 
+Lines = Literal["all", "odd", "odd_random"]
+_GROUP = 4  # of successive odd lines: one of them is left out
 _CLIPPED = np.linspace(0.3, 0.95, 200)  # of the peak, round by round
 _ENDLESS = 1e12
 _LARGEST = 1 << 15  # samples of a period whose phases are worth the rounds
@@ -27,6 +30,7 @@ class Grid:
 
     period_ticks: int
     lines: tuple[int, ...]
+    realisation: int = 0  # 0: of least crest; else of random phases, others for each number
 
     def frequencies_hz(self) -> tuple[float, ...]:
         """The frequency of each line."""
@@ -54,6 +58,18 @@ def grid_of_band(frequencies_hz: Sequence[float]) -> Grid:
     return Grid(period_ticks, tuple(sorted(lines)))
 
 
+def chosen(grid: Grid, lines: Lines) -> Grid:
+    """Those lines of a grid that are played: where none is odd the grid stays as it is."""
+    odd = tuple(line for line in grid.lines if line % 2 == 1)
+    if lines == "all" or not odd:
+        return grid
+    if lines == "odd_random":
+        left_out = np.random.default_rng(len(odd)).integers(0, _GROUP, len(odd) // _GROUP)
+        gone = {group * _GROUP + int(place) for group, place in enumerate(left_out)}
+        odd = tuple(line for i, line in enumerate(odd) if i not in gone)
+    return replace(grid, lines=odd)
+
+
 @lru_cache(maxsize=8)  # of up to 3 MB
 def period_of(grid: Grid) -> History:
     """One period at the loop's rate, its first sample again at its end, its greatest value 1."""
@@ -66,8 +82,14 @@ def period_of(grid: Grid) -> History:
 
 
 def _phases(grid: Grid) -> npt.NDArray[np.float64]:
-    """(lines,) rad, of a low crest: 1.5 for lines side by side, 2.2 for lines at equal ratios."""
+    """(lines,) rad, of a low crest: 1.5 for lines side by side, 2.2 for lines at equal ratios.
+
+    Of a further realisation they are random, evenly from 0 to 2π: what the best linear approximation asks for.
+    """
     lines = list(grid.lines)
+    if grid.realisation:
+        drawn = np.random.default_rng([grid.realisation, len(lines)])
+        return drawn.uniform(0, 2 * np.pi, len(lines))
     # Each line has its turn in the period: the delay grows with the power that lies below.
     delay = (np.arange(len(lines)) + 0.5) / len(lines)
     best = phases = -2 * np.pi * np.cumsum(np.diff(lines, prepend=0) * delay)

@@ -1,7 +1,7 @@
 """From blocks and motions to the pieces and loops they are made of: one function a kind."""
 
-import dataclasses
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Any, Literal
 
 from app.definitions import blocks as force
@@ -20,6 +20,7 @@ from app.definitions.building import (
 from app.definitions.limits import RIG
 from app.definitions.multisine import period_of
 from app.definitions.pieces import Loop, Node, Piece, Sine, Track
+from app.definitions.response_points import planned_points, slowest_at_end
 from app.definitions.responses import FrequencyResponse
 from app.documents.tree import Path
 from rtcore.program.segments import Branch
@@ -68,7 +69,7 @@ def _stamped(nodes: Iterable[Node], origin: Path, branch: Branch) -> list[Node]:
     stamped: list[Node] = []
     for node in nodes:
         if isinstance(node, Piece):
-            stamped.append(dataclasses.replace(node, origin=origin, branch=branch))
+            stamped.append(replace(node, origin=origin, branch=branch))
         else:
             stamped.append(Loop(node.times, tuple(_stamped(node.body, origin, branch)), origin))
     return stamped
@@ -102,14 +103,23 @@ def _sweep(b: force.Sweep) -> list[Node]:
 def _response(b: FrequencyResponse) -> list[Node]:
     if b.method == "multisine":
         return _multisine(b)
-    sines = [Sine(b.mean_n, a, hz) for a in b.amplitudes_n for hz in b.frequencies()]
-    return stepped(sines, b.settle_cycles, b.measure_cycles, FORCE_LEAD_S)
+    planned = planned_points(b)
+    points = [(point.sine, point.slower_hz) for point in planned]
+    last_hz = slowest_at_end(planned)
+    settle_cycles = b.settle_cycles if b.settle is None else b.settle.at_most_cycles
+    return stepped(points, last_hz, settle_cycles, b.measure_cycles, FORCE_LEAD_S)
 
 
 def _multisine(b: FrequencyResponse) -> list[Node]:
-    period = period_of(b.grid())
+    several = b.realisations > 1
+    grids = [replace(b.grid(), realisation=i + several) for i in range(b.realisations)]
     periods = b.settle_cycles + b.measure_cycles
-    tracks = [Track(period, amplitude_n, b.mean_n, held=b.mean_n) for amplitude_n in b.amplitudes_n]
+    tracks = [
+        Track(period_of(grid), amplitude_n, mean_n, held=mean_n)
+        for mean_n in b.means()
+        for amplitude_n in b.amplitudes_n
+        for grid in grids
+    ]
     return [node for track in tracks for node in course(track, periods, FORCE_LEAD_S)]
 
 
