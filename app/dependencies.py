@@ -11,6 +11,7 @@ from app.authority.service import Authority
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
 from app.drills.service import Drills
+from app.exports.service import Exports
 from app.first_outs.again import Again
 from app.first_outs.service import FirstOuts
 from app.histories.store import Store
@@ -20,6 +21,7 @@ from app.prediction.service import Predictions
 from app.reports.service import Reports
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
+from app.run_analysis.service import Analyses
 from app.runs.predicted import RunPredictions
 from app.runs.results import Results
 from app.runs.samples import RunWindows
@@ -71,6 +73,10 @@ def _library(this: ThisConsole) -> Library:
     return this.library
 
 
+def _exports(this: ThisConsole) -> Exports:
+    return this.exports
+
+
 def _first_outs(this: ThisConsole) -> FirstOuts:
     return this.first_outs
 
@@ -93,6 +99,10 @@ def _results(this: ThisConsole) -> Results:
 
 def _scene(this: ThisConsole) -> Scene:
     return this.scene
+
+
+def _analyses(this: ThisConsole) -> Analyses:
+    return this.analyses
 
 
 def _run_windows(this: ThisConsole) -> RunWindows:
@@ -139,12 +149,14 @@ RigService = Annotated[Rig, Depends(_rig)]
 CommandThreads = Annotated[Executor, Depends(_command_threads)]
 CatalogueService = Annotated[Catalogue, Depends(_catalogue)]
 LibraryService = Annotated[Library, Depends(_library)]
+ExportsService = Annotated[Exports, Depends(_exports)]
 FirstOutsService = Annotated[FirstOuts, Depends(_first_outs)]
 FirstOutsAgain = Annotated[Again, Depends(_first_outs_again)]
 DrillsService = Annotated[Drills, Depends(_drills)]
 RunsService = Annotated[Runs, Depends(_runs)]
 ResultsService = Annotated[Results, Depends(_results)]
 SceneService = Annotated[Scene, Depends(_scene)]
+AnalysesService = Annotated[Analyses, Depends(_analyses)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
 StorageService = Annotated[Storage, Depends(_storage)]
 SystemService = Annotated[System, Depends(_system)]

@@ -11,6 +11,7 @@ from app.authority.router import router as lease_router
 from app.catalogue.router import router as tests_router
 from app.catalogue.texts_router import router as texts_router
 from app.drills.router import router as drills_router
+from app.exports.router import router as exports_router
 from app.first_outs.again_router import router as first_outs_again_router
 from app.first_outs.router import router as first_outs_router
 from app.health import router as health_router
@@ -20,6 +21,7 @@ from app.live.router import router as live_router
 from app.prediction.router import router as predictions_router
 from app.reports.router import router as reports_router
 from app.rigs.router import router as rig_router
+from app.run_analysis.router import router as run_analysis_router
 from app.runs.predicted_router import router as predicted_router
 from app.runs.results_router import router as results_router
 from app.runs.router import router as runs_router
@@ -39,8 +41,10 @@ ROUTERS: tuple[APIRouter, ...] = (
     reports_router,
     runs_router,
     samples_router,
+    exports_router,
     results_router,
     predicted_router,
+    run_analysis_router,
     storage_router,
     first_outs_router,
     drills_router,

@@ -55,6 +55,11 @@ class Settings(BaseSettings):
         return self.data_dir.resolve() / "drills"
 
     @property
+    def exports_dir(self) -> Path:
+        """Where exports are made, and kept for a while."""
+        return self.data_dir.resolve() / "exports"
+
+    @property
     def histories_dir(self) -> Path:
         """Where time histories are kept, a folder each."""
         return self.data_dir.resolve() / "histories"

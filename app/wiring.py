@@ -19,6 +19,7 @@ from app.db import Database
 from app.definitions.limits import RIG
 from app.drills.scoring import Limits
 from app.drills.service import Drills
+from app.exports.service import Exports
 from app.first_outs.again import Again
 from app.first_outs.book import Book
 from app.first_outs.box import InForce
@@ -47,6 +48,7 @@ from app.reports.orders import Sources
 from app.reports.service import Reports
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
+from app.run_analysis.service import Analyses
 from app.runs.entering import Frozen
 from app.runs.ledger import Ledger
 from app.runs.measuring import measure
@@ -110,6 +112,7 @@ class Console:
         self.library = Library(self.database, reader)
         self.runs = Runs(self.database, settings.runs_dir)
         self.results = Results(self.database, settings.runs_dir, self.histories)
+        self.exports = Exports(self.runs.parquet, settings.exports_dir, self.storage.reserved_bytes)
         self._watcher = Watcher(
             self.storage,
             self.recorder.state,
@@ -120,6 +123,7 @@ class Console:
         look = (settings.report_logo, settings.report_template)
         sources = Sources(settings.database_address, settings.runs_dir, *look)
         self.reports = Reports(self.database, sources)
+        self.analyses = Analyses(self.database, settings.runs_dir, self.histories)
         self.run_windows = RunWindows(self.database, settings.runs_dir)
         self.predictions = Predictions(presets.controller, presets.interlocks, presets.rig)
         needs = Needs(
@@ -183,12 +187,15 @@ class Console:
         self.drills.open()
         self.predictions.warm_up()
         self.storage.retention.finish_removing()
+        self.exports.open()
         self._watcher.start()
 
     def close(self) -> None:
         """Take the load off, depressurise, end the loop, write down what was recorded."""
         self.predictions.close()
         self._reruns.close()
+        self.analyses.close()
+        self.exports.close()
         self.reports.close()
         self._watcher.close()
         self.drills.close()

@@ -11,6 +11,7 @@ from app.exports.hdf5 import write_hdf5
 from app.exports.matlab import why_not_mat, write_mat
 from app.exports.tables import write_csv, write_parquet
 from app.exports.tdms import write_tdms
+from rtcore.channels import CHANNELS
 
 
 class FormatName(StrEnum):
@@ -36,6 +37,11 @@ class Format(NamedTuple):
     stream: Callable[[BinaryIO, Extract, Progress], None] | None = None
     whole: Callable[[Path, Extract, Progress], None] | None = None
     why_not: Callable[[Extract], Refusal | None] = lambda wanted: None
+
+    def bytes_needed(self, wanted: Extract) -> int:
+        """What the file takes at most."""
+        share = len(wanted.names) / len(CHANNELS)
+        return 1_000_000 + round(wanted.ticks * self.bytes_per_tick * max(share, 0.1))
 
 
 FORMATS = {

@@ -64,11 +64,16 @@ def _outcome(connection: Connection, report: Report, unwanted: Event | None) -> 
 
 
 def _work(connection: Connection, work: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
-    ctypes.CDLL(None).prctl(_DIES_WITH_PARENT, signal.SIGKILL)
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started it ends it
-    os.setpriority(os.PRIO_PROCESS, 0, NICENESS)
+    settle_down()
     try:
         found = work(lambda share: connection.send(("report", share)), *arguments)
         connection.send(("done", found))
     except Exception as error:
         connection.send(("failed", f"{type(error).__name__}: {error}"))
+
+
+def settle_down() -> None:
+    """Have this process give way to all others, and end with whoever started it."""
+    ctypes.CDLL(None).prctl(_DIES_WITH_PARENT, signal.SIGKILL)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started it ends it
+    os.setpriority(os.PRIO_PROCESS, 0, NICENESS)

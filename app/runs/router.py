@@ -3,7 +3,6 @@
 from typing import Annotated, Literal
 
 from fastapi import APIRouter, Path, Query
-from fastapi.responses import FileResponse
 
 from app.access.dependencies import Operator, Viewer
 from app.access.principal import Role, lacking
@@ -85,15 +84,3 @@ def annotate_run(who: Operator, run_id: RunId, body: RunAnnotation, runs: RunsSe
 def list_run_events(who: Viewer, run_id: RunId, runs: RunsService) -> RunEvents:
     """What the loop reported during the run, in order."""
     return granted(runs.events(run_id))
-
-
-class _Parquet(FileResponse):
-    media_type = "application/vnd.apache.parquet"
-
-
-@router.get("/{run_id}/data.parquet", operation_id="getRunParquet", response_class=_Parquet)
-def get_run_parquet(who: Viewer, run_id: RunId, runs: RunsService) -> FileResponse:
-    """Every tick and every channel, with the frozen definition and settings in its metadata."""
-    path = granted(runs.parquet(run_id))
-    name = f"forcerig-run-{run_id}.parquet"
-    return _Parquet(path, media_type=_Parquet.media_type, filename=name)

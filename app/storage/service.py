@@ -69,6 +69,10 @@ class Storage:
         """What must stay free: for the file of the run under way, and for the database."""
         return self._settings.reserve_bytes + round(recorder.ticks * self._file_bytes_per_tick)
 
+    def reserved_bytes(self) -> int:
+        """What must stay free now, with the run under way."""
+        return self.reserve_bytes(self._recorder())
+
     def bytes_per_s(self) -> float:
         """What recording takes: a part goes on while the room for its file is kept free."""
         per_tick = PART_BYTES_PER_TICK + self._file_bytes_per_tick

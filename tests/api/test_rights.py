@@ -20,6 +20,7 @@ VIEWER = {  # what computes and changes nothing, what stops the rig, and what is
     *("commandRig", "signOut", "setPassword", "getTicket"),
     *("makeToken", "revokeToken", "endSession"),
     *("checkInterlocks", "replayFirstOut", "rerunFirstOut"),
+    *("exportRun", "removeExport"),
 }
 ENGINEER = {
     *("changeInterlocks", "removeFirstOut", "changeRetention", "listAudit", "verifyAudit"),

@@ -890,7 +890,7 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
-    "/api/v1/runs/{run_id}/data.parquet": {
+    "/api/v1/runs/{run_id}/analysis": {
         parameters: {
             query?: never;
             header?: never;
@@ -898,10 +898,30 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Get Run Parquet
-         * @description Every tick and every channel, with the frozen definition and settings in its metadata.
+         * Get Run Analysis
+         * @description Steps, cycles, harmonics, rainflow counts, damage and uncertainty of a run; computed once and kept.
          */
-        get: operations["getRunParquet"];
+        get: operations["getRunAnalysis"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/data.{ending}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Data
+         * @description Every tick of all or some channels. Parquet of the whole run is its file; the rest is made now.
+         */
+        get: operations["getRunData"];
         put?: never;
         post?: never;
         delete?: never;
@@ -922,6 +942,74 @@ export interface paths {
          * @description What the loop reported during the run, in order.
          */
         get: operations["listRunEvents"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/exports": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Exports
+         * @description What is being made of a run, or was within the hour; the newest first.
+         */
+        get: operations["listExports"];
+        put?: never;
+        /**
+         * Export Run
+         * @description Have a file made: ask for its progress, then for the file. It is kept for an hour.
+         */
+        post: operations["exportRun"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/exports/{export_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Export
+         * @description How far it is.
+         */
+        get: operations["getExport"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove Export
+         * @description Give it up, or remove its file.
+         */
+        delete: operations["removeExport"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/exports/{export_id}/file": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Export File
+         * @description The file, once it is made.
+         */
+        get: operations["getExportFile"];
         put?: never;
         post?: never;
         delete?: never;
@@ -990,6 +1078,70 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/{run_id}/report": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Report Progress
+         * @description How far a report is that is being made.
+         */
+        get: operations["getRunReportProgress"];
+        put?: never;
+        post?: never;
+        /**
+         * Give Up Run Report
+         * @description Make a report no further; whoever waits for it is told so.
+         */
+        delete: operations["giveUpRunReport"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/report.html": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Report Html
+         * @description The same as one page of HTML that needs nothing besides itself.
+         */
+        get: operations["getRunReportHtml"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/report.pdf": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Report Pdf
+         * @description The report of a run that is over, as PDF; made where there is none yet, which takes seconds.
+         */
+        get: operations["getRunReportPdf"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/{run_id}/samples": {
         parameters: {
             query?: never;
@@ -1004,6 +1156,46 @@ export interface paths {
         get: operations["getRunSamples"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scene": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Scene
+         * @description What the 3-D view is doing, and its colours.
+         */
+        get: operations["getScene"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/scene/cursor": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Point Scene
+         * @description Have a view of one's own (`/scene/{view}/`) show a moment of a run, or the rig now.
+         */
+        post: operations["pointScene"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1929,7 +2121,7 @@ export interface components {
          * @description Every reason to refuse. Programs match on these; sentences may change.
          * @enum {string}
          */
-        Code: "invalid_request" | "not_found" | "method_not_allowed" | "not_signed_in" | "not_allowed" | "two_credentials" | "csrf" | "sign_in_failed" | "wrong_password" | "weak_password" | "too_many_attempts" | "too_many_requests" | "unknown_user" | "user_exists" | "last_admin" | "own_account" | "unknown_token" | "unknown_session" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_first_out" | "unknown_drill" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "loop_lost" | "loop_silent" | "wrong_mode" | "lease_needed" | "lease_held" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "interlocks_weakened" | "no_program" | "busy" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
+        Code: "invalid_request" | "not_found" | "method_not_allowed" | "not_signed_in" | "not_allowed" | "two_credentials" | "csrf" | "sign_in_failed" | "wrong_password" | "weak_password" | "too_many_attempts" | "too_many_requests" | "unknown_user" | "user_exists" | "last_admin" | "own_account" | "unknown_token" | "unknown_session" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_first_out" | "unknown_drill" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "invalid_report" | "loop_lost" | "loop_silent" | "wrong_mode" | "lease_needed" | "lease_held" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "interlocks_weakened" | "no_program" | "busy" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
         /**
          * CommandDone
          * @description The loop has taken the command in this tick.
@@ -2007,6 +2199,40 @@ export interface components {
             reason: string;
         };
         /**
+         * ContributionOut
+         * @description One contribution to the error budget; `of_unit` says that it comes with the inertia's correction.
+         */
+        ContributionOut: {
+            /** How */
+            how: string;
+            /** Name */
+            name: string;
+            /** Of Unit */
+            of_unit: boolean;
+            shape: components["schemas"]["Shape"];
+            source: components["schemas"]["Source"];
+            /** Standard N */
+            standard_n: number;
+            /** Value N */
+            value_n: number;
+        };
+        /**
+         * ControlOut
+         * @description How well the force was controlled: setpoint less load cell, and less the force on the unit.
+         */
+        ControlOut: {
+            /** Error Peak N */
+            error_peak_n: number;
+            /** Error Rms N */
+            error_rms_n: number;
+            /** Share Of Range Percent */
+            share_of_range_percent: number | null;
+            /** Unit Error Peak N */
+            unit_error_peak_n: number;
+            /** Unit Error Rms N */
+            unit_error_rms_n: number;
+        };
+        /**
          * CourseOut
          * @description One course of what happened: times are seconds from the tick of the recorded first-out.
          */
@@ -2050,6 +2276,22 @@ export interface components {
             path: string;
             /** Text */
             text: string;
+        };
+        /**
+         * DamageOut
+         * @description By a Wöhler exponent; the amplitudes do in `cycles` cycles the damage asked for and applied.
+         */
+        DamageOut: {
+            /** Applied Amplitude N */
+            applied_amplitude_n: number;
+            /** Asked Amplitude N */
+            asked_amplitude_n: number;
+            /** Cycles */
+            cycles: number;
+            /** Exponent */
+            exponent: number;
+            /** Ratio */
+            ratio: number | null;
         };
         /**
          * Detector
@@ -2388,6 +2630,66 @@ export interface components {
             text: string;
         };
         /**
+         * ExportAsked
+         * @description All channels where none are named; times from the run's first tick, to its end without `to_s`.
+         */
+        ExportAsked: {
+            /**
+             * Channels
+             * @default []
+             */
+            channels: string[];
+            format: components["schemas"]["FormatName"];
+            /**
+             * From S
+             * @default 0
+             */
+            from_s: number;
+            /** To S */
+            to_s?: number | null;
+        };
+        /**
+         * ExportOut
+         * @description An export and how far it is; its file is there from `done` until `kept_until`.
+         */
+        ExportOut: {
+            /** Channels */
+            channels: string[];
+            format: components["schemas"]["FormatName"];
+            /** From S */
+            from_s: number;
+            /** Id */
+            id: string;
+            /** Kept Until */
+            kept_until: string | null;
+            /**
+             * Made At
+             * Format: date-time
+             */
+            made_at: string;
+            /** Reason */
+            reason: string | null;
+            /** Run Id */
+            run_id: number;
+            /** Seconds Left */
+            seconds_left: number | null;
+            /** Share */
+            share: number;
+            /** Size Bytes */
+            size_bytes: number | null;
+            state: components["schemas"]["JobState"];
+            /** Title */
+            title: string;
+            /** To S */
+            to_s: number;
+        };
+        /**
+         * Extent
+         * @description How much is told: what fits on two pages or so, or all of it.
+         * @enum {string}
+         */
+        Extent: "brief" | "full";
+        /**
          * FaultOut
          * @description One thing that is wrong in what was sent; what is not known of it is null.
          */
@@ -2547,12 +2849,38 @@ export interface components {
          */
         Form: 0 | 1 | 2;
         /**
+         * Format
+         * @description What a report is written as.
+         * @enum {string}
+         */
+        Format: "pdf" | "html";
+        /**
+         * FormatName
+         * @description Each is the ending of the file's name.
+         * @enum {string}
+         */
+        FormatName: "parquet" | "csv" | "mat" | "tdms" | "h5";
+        /**
          * HandOver
          * @description Give command to whoever made this request.
          */
         HandOver: {
             /** Request Id */
             request_id: number;
+        };
+        /**
+         * HarmonicOut
+         * @description A multiple of the sine's frequency; `percent` is of the first, the phase against the setpoint's.
+         */
+        HarmonicOut: {
+            /** Amplitude N */
+            amplitude_n: number | null;
+            /** Order */
+            order: number;
+            /** Percent */
+            percent: number | null;
+            /** Phase Deg */
+            phase_deg: number | null;
         };
         /**
          * Health
@@ -2598,6 +2926,12 @@ export interface components {
              *         "doc": "Number of the run this tick belongs to, 0 for none",
              *         "dtype": "i8",
              *         "name": "run",
+             *         "unit": "-"
+             *       },
+             *       {
+             *         "doc": "Tick of the force program: stands still in a hold, jumps on a skip; -1 outside a run",
+             *         "dtype": "i8",
+             *         "name": "program_tick",
              *         "unit": "-"
              *       },
              *       {
@@ -2801,7 +3135,7 @@ export interface components {
         };
         /**
          * InterlocksChange
-         * @description Another table; `based_on` is the revision that it was made from, `lease` the epoch of one's own.
+         * @description Another table; `based_on` is the revision that it was made from.
          */
         InterlocksChange: {
             /** Based On */
@@ -2888,6 +3222,34 @@ export interface components {
             knowingly_weaker: string[];
         };
         /**
+         * JobOut
+         * @description How far long work is; `reason` says why nothing came of it.
+         */
+        JobOut: {
+            /** Id */
+            id: string;
+            /**
+             * Made At
+             * Format: date-time
+             */
+            made_at: string;
+            /** Reason */
+            reason: string | null;
+            /** Seconds Left */
+            seconds_left: number | null;
+            /** Share */
+            share: number;
+            state: components["schemas"]["JobState"];
+            /** Title */
+            title: string;
+        };
+        /**
+         * JobState
+         * @description Where a job is.
+         * @enum {string}
+         */
+        JobState: "waiting" | "running" | "done" | "failed" | "cancelled";
+        /**
          * JudgedCriterion
          * @description An acceptance criterion and what it came to; block is null where it is about the whole run.
          */
@@ -2926,6 +3288,37 @@ export interface components {
              * @default 0
              */
             mean_n: number;
+        };
+        /**
+         * LayerOut
+         * @description A layer: one sine of a block, or a sweep, of which nothing is fitted.
+         *
+         *     Errors are what was above (+) or below (−) what was asked for. Spreads are over the whole cycles.
+         */
+        LayerOut: {
+            /** Amplitude Error Percent */
+            amplitude_error_percent: number | null;
+            /** Amplitude N */
+            amplitude_n: number | null;
+            asked: components["schemas"]["SineOut"] | null;
+            /** Block */
+            block: number;
+            cycle_mean_n: components["schemas"]["SpreadOut"];
+            /** Cycles */
+            cycles: number;
+            /** Distortion Percent */
+            distortion_percent: number | null;
+            /** Harmonics */
+            harmonics: components["schemas"]["HarmonicOut"][];
+            /** Mean Error N */
+            mean_error_n: number | null;
+            /** Mean N */
+            mean_n: number | null;
+            peak_n: components["schemas"]["SpreadOut"];
+            /** Phase Deg */
+            phase_deg: number | null;
+            range_n: components["schemas"]["SpreadOut"];
+            valley_n: components["schemas"]["SpreadOut"];
         };
         /**
          * LeaseAsk
@@ -3026,6 +3419,18 @@ export interface components {
             reason: string;
             /** Test Name */
             test_name: string;
+        };
+        /**
+         * LikenessOut
+         * @description G of the paper's eq. (4) against the prediction, normalised by the force's peak.
+         */
+        LikenessOut: {
+            /** Peak N */
+            peak_n: number | null;
+            /** Percent */
+            percent: number | null;
+            /** Rms N */
+            rms_n: number | null;
         };
         /**
          * Limits
@@ -3204,6 +3609,18 @@ export interface components {
             time_s: number | null;
             /** Unit */
             unit: string | null;
+        };
+        /**
+         * MatrixCellOut
+         * @description Cycles that were applied, by the lower ends of their classes of range and mean.
+         */
+        MatrixCellOut: {
+            /** Cycles */
+            cycles: number;
+            /** Mean N */
+            mean_n: number;
+            /** Range N */
+            range_n: number;
         };
         /**
          * Me
@@ -3549,6 +3966,42 @@ export interface components {
          */
         Quantity: 0 | 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | 9 | 10 | 11 | 12 | 13 | 14 | 15 | 16 | 17 | 18 | 19 | 20 | 21 | 22 | 23;
         /**
+         * RainflowOut
+         * @description Cycles by rainflow counting, of the load cell over every tick and of its setpoint.
+         */
+        RainflowOut: {
+            /** Applied Cycles */
+            applied_cycles: number;
+            /** Applied Largest Range N */
+            applied_largest_range_n: number;
+            /** Asked Cycles */
+            asked_cycles: number;
+            /** Asked Largest Range N */
+            asked_largest_range_n: number;
+            /** Class N */
+            class_n: number;
+            /** Gate N */
+            gate_n: number;
+            /** Matrix */
+            matrix: components["schemas"]["MatrixCellOut"][];
+            /** Spectrum */
+            spectrum: components["schemas"]["RangeClassOut"][];
+        };
+        /**
+         * RangeClassOut
+         * @description Cycles with a range from `from_n` to before `to_n`: asked for and applied. Half cycles count 0.5.
+         */
+        RangeClassOut: {
+            /** Applied */
+            applied: number;
+            /** Asked */
+            asked: number;
+            /** From N */
+            from_n: number;
+            /** To N */
+            to_n: number;
+        };
+        /**
          * ReactionOut
          * @description What must follow; without `first_outs` nothing may take the load off.
          */
@@ -3828,6 +4281,31 @@ export interface components {
          */
         RoleWord: "viewer" | "operator" | "engineer" | "admin";
         /**
+         * RunAnalysis
+         * @description A run in the time domain. Long lists are cut; `layers_in_all` and `steps_in_all` say how long they were.
+         */
+        RunAnalysis: {
+            control: components["schemas"]["ControlOut"];
+            /** Damage */
+            damage: components["schemas"]["DamageOut"][];
+            goodness: components["schemas"]["LikenessOut"] | null;
+            /** Layers */
+            layers: components["schemas"]["LayerOut"][];
+            /** Layers In All */
+            layers_in_all: number;
+            rainflow: components["schemas"]["RainflowOut"];
+            /** Steps */
+            steps: components["schemas"]["StepOut"][];
+            /** Steps In All */
+            steps_in_all: number;
+            uncertainty: components["schemas"]["UncertaintyOut"];
+            /**
+             * Version
+             * @default 1
+             */
+            version: number;
+        };
+        /**
          * RunAnnotation
          * @description What to note of a run, on top of `annotation` and nothing newer; what is null stays.
          */
@@ -4104,6 +4582,67 @@ export interface components {
             type: "runs";
         };
         /**
+         * Scale
+         * @description The colours of a quantity, evenly from one end to the other.
+         */
+        Scale: {
+            /** Colours */
+            colours: string[];
+            /** From Value */
+            from_value: number;
+            /** To Value */
+            to_value: number;
+            /** Unit */
+            unit: string;
+        };
+        /**
+         * SceneCursor
+         * @description What a view of the caller's own shows: a moment of a run (s from its first tick), or the rig now.
+         */
+        SceneCursor: {
+            /**
+             * Deformation
+             * @default 50
+             */
+            deformation: number;
+            /** Run Id */
+            run_id?: number | null;
+            /** Time S */
+            time_s?: number | null;
+            /**
+             * Travel
+             * @default 1
+             */
+            travel: number;
+            /**
+             * View
+             * @description which view, chosen by its page
+             * @default
+             */
+            view: string;
+        };
+        /**
+         * SceneOut
+         * @description The scene as it is. `life` counts its processes: a page loads the view again when it changes.
+         */
+        SceneOut: {
+            /** Detail */
+            detail: string;
+            force: components["schemas"]["Scale"];
+            /** Life */
+            life: number;
+            pressure: components["schemas"]["Scale"];
+            state: components["schemas"]["SceneState"];
+            /** Viewers */
+            viewers: number;
+        };
+        /**
+         * SceneState
+         * @description What the scene's process is doing.
+         * @enum {string}
+         */
+        SceneState: "idle" | "starting" | "ready" | "waiting";
+        /**
          * Scope
          * @description Of a token; each includes those before it.
          * @enum {string}
@@ -4177,6 +4716,12 @@ export interface components {
             seed: number;
         };
         /**
+         * Shape
+         * @description Of a distribution.
+         * @enum {string}
+         */
+        Shape: "normal" | "rectangular";
+        /**
          * SignIn
          * @description Who wants to sign in.
          */
@@ -4186,6 +4731,24 @@ export interface components {
             /** Password */
             password: string;
         };
+        /**
+         * SineOut
+         * @description A sine as it was asked for.
+         */
+        SineOut: {
+            /** Amplitude N */
+            amplitude_n: number;
+            /** Frequency Hz */
+            frequency_hz: number;
+            /** Mean N */
+            mean_n: number;
+        };
+        /**
+         * Source
+         * @description How a contribution was got.
+         * @enum {string}
+         */
+        Source: "data sheet" | "measured in this run" | "assumed" | "calculated";
         /**
          * SpectrumOut
          * @description The layers that could be read, and what is wrong with the lines that could not.
@@ -4205,6 +4768,22 @@ export interface components {
             text: string;
         };
         /**
+         * SpreadOut
+         * @description Of a value over cycles; the deviation of fewer than two is null.
+         */
+        SpreadOut: {
+            /** Count */
+            count: number;
+            /** Deviation */
+            deviation: number | null;
+            /** High */
+            high: number | null;
+            /** Low */
+            low: number | null;
+            /** Mean */
+            mean: number | null;
+        };
+        /**
          * StatusFrame
          * @description Each 100 ms.
          */
@@ -4216,6 +4795,30 @@ export interface components {
              * @constant
              */
             type: "status";
+        };
+        /**
+         * StepOut
+         * @description A step of the setpoint and the response to it; null where it did not get that far.
+         */
+        StepOut: {
+            /** Begin N */
+            begin_n: number;
+            /** Block */
+            block: number;
+            /** Dead Time S */
+            dead_time_s: number | null;
+            /** End N */
+            end_n: number;
+            /** Overshoot Percent */
+            overshoot_percent: number | null;
+            /** Rise S */
+            rise_s: number | null;
+            /** Settling S */
+            settling_s: number | null;
+            /** Steady Error N */
+            steady_error_n: number | null;
+            /** Time S */
+            time_s: number;
         };
         /**
          * StorageOut
@@ -4631,6 +5234,36 @@ export interface components {
             time_s: number;
             /** Value */
             value: number | null;
+        };
+        /**
+         * UncertaintyOut
+         * @description How well the force was measured, at any instant; expanded uncertainties have the factor `coverage`.
+         */
+        UncertaintyOut: {
+            /** Cell Expanded N */
+            cell_expanded_n: number;
+            /** Contributions */
+            contributions: components["schemas"]["ContributionOut"][];
+            /** Coverage */
+            coverage: number;
+            /** Delay S */
+            delay_s: number;
+            /** Inertia Peak N */
+            inertia_peak_n: number;
+            /** Inertia Rms N */
+            inertia_rms_n: number;
+            /** Range N */
+            range_n: number;
+            /** Share Of Range Percent */
+            share_of_range_percent: number | null;
+            /** Share Of Rated Percent */
+            share_of_rated_percent: number;
+            /** Unit Expanded N */
+            unit_expanded_n: number;
+            /** Unit Highest N */
+            unit_highest_n: number;
+            /** Unit Lowest N */
+            unit_lowest_n: number;
         };
         /**
          * UserChange
@@ -6423,9 +7056,11 @@ export interface operations {
             };
         };
     };
-    getRunParquet: {
+    getRunAnalysis: {
         parameters: {
-            query?: never;
+            query?: {
+                wait_s?: number;
+            };
             header?: never;
             path: {
                 run_id: number;
@@ -6440,7 +7075,57 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
+                    "application/json": components["schemas"]["RunAnalysis"] | components["schemas"]["Computing"];
+                };
+            };
+            /** @description Still being computed: ask again */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Computing"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunData: {
+        parameters: {
+            query?: {
+                /** @description names, with commas between */
+                channels?: string;
+                from_s?: number;
+                to_s?: number | null;
+            };
+            header?: never;
+            path: {
+                run_id: number;
+                ending: components["schemas"]["FormatName"];
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
                     "application/vnd.apache.parquet": string;
+                    "application/x-hdf5": string;
+                    "application/x-matlab-data": string;
+                    "application/x-tdms": string;
+                    "text/csv; charset=utf-8": string;
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -6472,6 +7157,172 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunEvents"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listExports: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExportOut"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    exportRun: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ExportAsked"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExportOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getExport: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+                export_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExportOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    removeExport: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+                export_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ExportOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getExportFile: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                run_id: number;
+                export_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description The file */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/vnd.apache.parquet": string;
+                    "application/x-hdf5": string;
+                    "application/x-matlab-data": string;
+                    "application/x-tdms": string;
+                    "text/csv; charset=utf-8": string;
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -6582,6 +7433,144 @@ export interface operations {
             };
         };
     };
+    getRunReportProgress: {
+        parameters: {
+            query?: {
+                /** @description two pages or so, or all that there is to say */
+                extent?: components["schemas"]["Extent"];
+                format?: components["schemas"]["Format"];
+            };
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    giveUpRunReport: {
+        parameters: {
+            query?: {
+                /** @description two pages or so, or all that there is to say */
+                extent?: components["schemas"]["Extent"];
+                format?: components["schemas"]["Format"];
+            };
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["JobOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunReportHtml: {
+        parameters: {
+            query?: {
+                /** @description two pages or so, or all that there is to say */
+                extent?: components["schemas"]["Extent"];
+            };
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/html": string;
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunReportPdf: {
+        parameters: {
+            query?: {
+                /** @description two pages or so, or all that there is to say */
+                extent?: components["schemas"]["Extent"];
+            };
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/pdf": string;
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getRunSamples: {
         parameters: {
             query: {
@@ -6606,6 +7595,68 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["RunSamples"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getScene: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SceneOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    pointScene: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SceneCursor"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SceneOut"];
                 };
             };
             /** @description A problem document (RFC 9457) */

@@ -5,6 +5,7 @@ export const CHANNELS = [
   {"name": "time_s", "unit": "s", "dtype": "f8", "doc": "Tick number times the period"},
   {"name": "trips", "unit": "-", "dtype": "u8", "doc": "Latched detectors, one bit each"},
   {"name": "run", "unit": "-", "dtype": "i8", "doc": "Number of the run this tick belongs to, 0 for none"},
+  {"name": "program_tick", "unit": "-", "dtype": "i8", "doc": "Tick of the force program: stands still in a hold, jumps on a skip; -1 outside a run"},
   {"name": "force_command_n", "unit": "N", "dtype": "f4", "doc": "Setpoint of the force loop"},
   {"name": "force_n", "unit": "N", "dtype": "f4", "doc": "Load cell, compression positive"},
   {"name": "force_error_n", "unit": "N", "dtype": "f4", "doc": "Setpoint minus load cell"},

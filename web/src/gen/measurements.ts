@@ -22,4 +22,6 @@ export const MEASUREMENTS = [
   {"name": "step_overshoot_percent", "unit": "%", "doc": "Largest overshoot of all steps, in % of the step"},
   {"name": "step_rise_s", "unit": "s", "doc": "Longest rise of all steps, from 10 to 90 %"},
   {"name": "step_settling_s", "unit": "s", "doc": "Longest time of all steps until the force stays within 2 %"},
+  {"name": "step_dead_time_s", "unit": "s", "doc": "Longest time of all steps from the command to the first 5 % of the step"},
+  {"name": "step_steady_error_n", "unit": "N", "doc": "Largest error of all steps that stays: of the mean force over the second half of the hold"},
 ] as const
