@@ -21,7 +21,7 @@ from app.analysis.response.curve import (
     phase_interval_deg,
 )
 from app.analysis.response.point import Interval
-from app.analysis.response.settling import Drift, drift_of, is_unlikely, residual_power
+from app.analysis.response.settling import Drift, drift_of, is_unlikely, power_of
 from rtcore.compiled import Array
 
 MOST_LINES = 8  # on each side: 32 degrees of freedom, a factor of 2.04
@@ -36,7 +36,6 @@ class Estimate:
     gain: complex
     variance: float
     lines: int  # that the variance is from; 0: it is not known
-    output_amplitude: float
     cycles: float
     steady: bool
 
@@ -113,15 +112,19 @@ class Fit:
 
     def estimate(self, input: str, output: str) -> Estimate | None:
         """Output over input; None where the input does not move at this frequency."""
-        u, y = self.channels.index(input), self.channels.index(output)
+        return self.ratio(self._just(input), self._just(output))
+
+    def ratio(self, input: Complex, output: Complex) -> Estimate | None:
+        """As `estimate`, of sums of channels with (channels,) weights each."""
         first = self.parts[:, self._middle + 1]
-        if not self._moves(u):
+        below, above = complex(input @ first), complex(output @ first)
+        if not self._moves(input):
             return None
-        gain = complex(first[y] / first[u])
-        variance = residual_power(self.noise, u, y, gain) * self._share / abs(first[u]) ** 2
-        amplitude = float(2 * abs(first[y]))
-        steady = self.drift.is_steady(u, y, gain, complex(self.sums[y, 1]))
-        return Estimate(gain, variance, self.lines, amplitude, self.cycles, steady)
+        gain = above / below
+        left = output - gain * input
+        variance = power_of(left, self.noise) * self._share / abs(below) ** 2
+        steady = self.drift.is_steady(left, complex(output @ self.sums[:, 1]))
+        return Estimate(gain, variance, self.lines, self.cycles, steady)
 
     def added(self, other: "Fit", reference: str) -> "Fit":
         """Both, each turned to the phase of the same channel."""
@@ -146,14 +149,19 @@ class Fit:
         inverse = np.linalg.pinv(normal_matrix(self.ones), rcond=1e-10, hermitian=True)
         return float(inverse[self._middle + 1, self._middle + 1].real / self.ones[0].real)
 
-    def _moves(self, channel: int) -> bool:
-        """Whether a channel has the sine in it, beyond what noise and rounding put there."""
-        mean, first = np.abs(self.parts[channel, self._middle : self._middle + 2])
+    def _just(self, channel: str) -> Complex:
+        weights = np.zeros(len(self.channels), np.complex128)
+        weights[self.channels.index(channel)] = 1.0
+        return weights
+
+    def _moves(self, weights: Complex) -> bool:
+        """Whether a sum of channels has the sine in it, beyond what noise and rounding put there."""
+        mean, first = np.abs(weights @ self.parts[:, self._middle : self._middle + 2])
         if not first > LEAST_SHARE * mean:
             return False
         if self.lines == 0:
             return True
-        power = float(self.noise[channel, channel].real) * self._share
+        power = power_of(weights, self.noise) * self._share
         return is_unlikely(float(first) ** 2, power, self.lines, 1 - CONFIDENCE)
 
     def _turned(self, reference: str) -> "Fit":

@@ -26,23 +26,21 @@ class Drift:
     noise: Complex
     lines: int
 
-    def is_steady(self, input: int, output: int, gain: complex, whole: complex) -> bool:
-        """Whether output − gain · input moved no more than a little of `whole`, or than its noise."""
+    def is_steady(self, weights: Complex, whole: complex) -> bool:
+        """Whether a sum of channels moved no more than a little of `whole`, or than its noise."""
         if self.lines < 1:
             return False
-        moved = abs(self.moved[output] - gain * self.moved[input])
+        moved = float(abs(weights @ self.moved))
         if moved <= NEGLIGIBLE * abs(whole):
             return True
         # Along a slope of ±1/2 from end to end a sum has 1/12 of its power.
-        power = 12.0 * residual_power(self.noise, input, output, gain)
-        return not is_unlikely(float(moved) ** 2, power, self.lines, SURE)
+        power = 12.0 * power_of(weights, self.noise)
+        return not is_unlikely(moved**2, power, self.lines, SURE)
 
 
-def residual_power(noise: Complex, input: int, output: int, gain: complex) -> float:
-    """Variance of output − gain · input, from the covariance (channels, channels) of their noise."""
-    weights = np.array([-gain, 1.0])
-    pair = noise[np.ix_([input, output], [input, output])]
-    return max(0.0, float((weights @ pair @ weights.conj()).real))
+def power_of(weights: Complex, noise: Complex) -> float:
+    """Variance of a sum of channels, from the covariance (channels, channels) of their noise."""
+    return max(0.0, float((weights @ noise @ weights.conj()).real))
 
 
 def is_unlikely(power: float, noise_power: float, lines: int, chance: float) -> bool:

@@ -10,10 +10,12 @@ from collections.abc import Iterable, Mapping
 
 from app.analysis.evidence import Sine
 from app.analysis.phasors import Phasors
-from app.analysis.response.fit import Fit, fit_of
+from app.analysis.response.fit import Estimate, Fit, fit_of
 from app.analysis.response.point import ResponsePoint
 from app.analysis.response.transfers import TRANSFERS, Transfer
+from app.analysis.response.unit_under_test import MEASURED, unit_estimates
 from app.analysis.walk import Part
+from rtcore.rig.parameters import RigParameters
 
 REFERENCE = "force_command_n"  # whose phase stretches of the same sine are turned to
 
@@ -30,13 +32,20 @@ class SteppedSine:
     """Takes a run part after part; gives the points so far.
 
     The `Walk` that gives the parts needs `also=channels_of(transfers.values())`. Memory grows with the
-    points, not with the ticks. A sine that a block plays several times is one point.
+    points, not with the ticks. A sine that a block plays several times is one point. With a `rig`,
+    dynamic stiffness and admittance of the unit under test are told too.
     """
 
-    def __init__(self, period_s: float, transfers: Mapping[str, Transfer] = TRANSFERS) -> None:
+    def __init__(
+        self,
+        period_s: float,
+        transfers: Mapping[str, Transfer] = TRANSFERS,
+        rig: RigParameters | None = None,
+    ) -> None:
         self._period_s = period_s
+        self._rig = rig
         self._transfers = tuple(transfers.values())
-        self._channels = channels_of(self._transfers)
+        self._channels = channels_of([*self._transfers, *([] if rig is None else [MEASURED])])
         self._fits: dict[Key, Fit] = {}
         self._points: dict[Key, list[ResponsePoint]] = {}
         self._now: tuple[Key, Phasors] | None = None
@@ -91,15 +100,15 @@ class SteppedSine:
         return fit if before is None else before.added(fit, REFERENCE)
 
     def _read(self, key: Key, fit: Fit) -> list[ResponsePoint]:
-        found = (_point(transfer, key, fit) for transfer in self._transfers)
-        return [point for point in found if point is not None]
+        found = {t: fit.estimate(t.input, t.output) for t in self._transfers}
+        if self._rig is not None:
+            found |= unit_estimates(fit, self._rig, key[1].frequency_hz)
+        return [_point(t, key, fit, e) for t, e in found.items() if e is not None]
 
 
-def _point(transfer: Transfer, key: Key, fit: Fit) -> ResponsePoint | None:
+def _point(transfer: Transfer, key: Key, fit: Fit, estimate: Estimate) -> ResponsePoint:
     block, sine = key
-    estimate = fit.estimate(transfer.input, transfer.output)
-    if estimate is None:
-        return None
+    measured = transfer.output in fit.channels
     return ResponsePoint(
         transfer=transfer.name,
         block=block,
@@ -111,7 +120,7 @@ def _point(transfer: Transfer, key: Key, fit: Fit) -> ResponsePoint | None:
         gain_95=estimate.gain_95,
         phase_95_deg=estimate.phase_95_deg,
         coherence=estimate.coherence,
-        distortion_percent=fit.distortion_percent(transfer.output),
+        distortion_percent=fit.distortion_percent(transfer.output) if measured else None,
         cycles=fit.whole_cycles,
         settled=estimate.steady,
     )

@@ -35,4 +35,22 @@ _TABLE = (
         "Displacement of the unit to its command: its position response",
     ),
 )
+_OF_UNIT = (
+    Transfer(
+        "stiffness",
+        "unit_deformation_m",
+        "unit_force_n",
+        "N/m",
+        "Dynamic stiffness of the unit: force on it to its deformation",
+    ),
+    Transfer(
+        "admittance",
+        "unit_force_n",
+        "unit_deformation_m_s",
+        "m/(N s)",
+        "Admittance of the unit: velocity of its deformation to the force on it",
+    ),
+)
 TRANSFERS = {transfer.name: transfer for transfer in _TABLE}
+# What no channel has but a model of the rig makes of them (`app.analysis.response.unit_under_test`).
+UNIT_TRANSFERS = {transfer.name: transfer for transfer in _OF_UNIT}
