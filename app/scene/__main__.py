@@ -4,13 +4,12 @@ import logging
 import os
 import signal
 import sys
+import threading
 from pathlib import Path
-from threading import Thread
 from time import sleep
 
-import viser
-
 from app.scene.private import listen_at
+from app.scene.server import PrivateServer
 from app.scene.stage import Stage
 from app.scene.telling import RigTold, told_in
 
@@ -26,14 +25,15 @@ def main(path: Path) -> None:
     os.setpriority(os.PRIO_PROCESS, 0, NICENESS)
     os.umask(0o177)
     logging.basicConfig(format="%(asctime)s %(levelname)s %(message)s", level=logging.INFO)
+    threading.excepthook = _give_up
     answers = os.dup(1)
     os.dup2(2, 1)  # viser prints: that goes to the log
     first = told_in(sys.stdin.buffer.readline())
     assert isinstance(first, RigTold), "the rig is told first"
     listen_at(path)
     stage = Stage(first.chain)
-    stage.open(viser.ViserServer(host="127.0.0.1", port=0, verbose=False))
-    Thread(target=_listen, args=(stage,), daemon=True).start()
+    stage.open(PrivateServer(host="127.0.0.1", port=0, verbose=False))
+    threading.Thread(target=_listen, args=(stage,), daemon=True).start()
     os.write(answers, READY)
     frames = 0
     while True:
@@ -42,6 +42,12 @@ def main(path: Path) -> None:
         if frames % BEAT_EACH == 0:
             os.write(answers, BEAT)
         sleep(FRAME_S)
+
+
+def _give_up(what: threading.ExceptHookArgs) -> None:
+    """A scene without its server is of no use: the console starts another."""
+    logging.getLogger(__name__).error("a thread has failed: %s", what.exc_value)
+    os._exit(1)
 
 
 def _listen(stage: Stage) -> None:

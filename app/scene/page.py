@@ -20,7 +20,7 @@ _LOADER = re.compile(
 )
 _DIGITS = "".join(chr(c) for c in range(0x21, 0x7F) if chr(c) not in "\"&<>'`")
 # The panel of viser's own: what it would offer, the console's page has.
-_OWN_STYLE = "<style>[data-floating-window] { display: none }</style>"
+_OWN_STYLE = "<style>[data-floating-window] { display: none !important }</style>"
 
 
 class ScenePage(NamedTuple):

@@ -11,7 +11,7 @@ from typing import Any
 from urllib.parse import quote, unquote
 
 import websockets.asyncio.server
-from websockets.asyncio.server import ServerConnection, unix_serve
+from websockets.asyncio.server import ServerConnection
 
 looking: ContextVar[str] = ContextVar("looking")  # the name of the view, in viser's async callbacks
 MOST_RECEIVED_BYTES = 65_536  # a browser tells where its camera is, no more
@@ -25,6 +25,8 @@ def address_of(view: str) -> str:
 def listen_at(path: Path) -> None:
     """Have every server that is started from now on in this process listen there, and serve no files."""
 
+    theirs = websockets.asyncio.server.serve
+
     def serve(
         handler: Callable[[ServerConnection], Awaitable[None]], host: str, port: int, **options: Any
     ) -> Any:
@@ -34,6 +36,6 @@ def listen_at(path: Path) -> None:
             await handler(connection)
 
         ours = {"process_request": None, "max_size": MOST_RECEIVED_BYTES}
-        return unix_serve(named, str(path), **options | ours)
+        return theirs(named, unix=True, path=str(path), **options | ours)
 
     websockets.asyncio.server.serve = serve  # type: ignore[assignment,misc]

@@ -15,7 +15,7 @@ from app.scene.telling import LiveTold, RigTold, Told, View, ViewTold
 _log = logging.getLogger(__name__)
 MOST_VIEWS = 64  # that are remembered: the oldest goes
 LABELS_EACH = 8  # frames: figures that change faster cannot be read
-CAMERA_M, LOOKS_AT_M, FIELD_RAD = (0.75, -1.35, 0.62), (0.86, 0.0, -0.02), 0.72
+CAMERA_M, LOOKS_AT_M, FIELD_RAD = (0.86, -1.9, 0.75), (0.94, 0.0, -0.03), 0.7
 
 
 @dataclass
