@@ -66,6 +66,27 @@ def simulate(
 
 
 @cli.command()
+def export(
+    recording: Annotated[Path, typer.Argument(help="The Parquet file of a run or a simulation.")],
+    out: Annotated[Path, typer.Argument(help="Ends in .parquet, .csv, .mat, .tdms or .h5.")],
+    channels: Annotated[
+        str, typer.Option(help="Names, with commas between; all without.", show_default="all")
+    ] = "",
+    from_s: Annotated[float, typer.Option(min=0, max=1e9, help="From the run's start.")] = 0.0,
+    to_s: Annotated[
+        float | None, typer.Option(min=0, max=1e9, help="Its end without.", show_default="the end")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Write a recording as a file of another program: chunk by chunk, however long it is."""
+    from app.commands.export import Request, run
+    from app.exports.extract import Wanted
+
+    names = tuple(name.strip() for name in channels.split(",") if name.strip())
+    raise typer.Exit(run(Request(recording, out, Wanted(names, from_s, to_s), json)))
+
+
+@cli.command()
 def serve(
     host: Host = None,
     port: Port = None,
