@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from app.conducting.conducting import LOOK_TICKS, Conducting
 from app.controller.record import to_record as gains_record
 from app.definitions.expansion import expand
 from app.definitions.limits import RIG
@@ -79,6 +80,7 @@ class Play:
     watch: Watch
     ticks: int  # of the program
     events: list[LoopEvent] = field(default_factory=list)
+    conducting: Conducting | None = None  # of a test that adapts
     held: bool = False
     first_tick: int = -1  # of the loop, in which the run began
 
@@ -92,19 +94,37 @@ class Play:
         if reply != Reply.ACCEPTED:
             raise RuntimeError(f"start was refused: {reply.name.lower()}")
         self.first_tick = int(rig.taken[0]["tick"][0])
+        if self.conducting is not None:
+            self.conducting.take(rig.taken[0])
         held_ticks = 0
         while rig.taken:
-            yield from rig.taken
+            yield np.concatenate(rig.taken) if len(rig.taken) > 1 else rig.taken[0]
             rig.taken.clear()
             self._read_events()
             progress(min(1.0, int(self.watch.seen["loaded"]) / max(1, self.ticks)))
             held_ticks = held_ticks + CHUNK_TICKS if rig.mode == Mode.HOLDING else 0
             self.held = held_ticks * RIG.period_s > HELD_S
             if not self.held:
-                rig.advance(CHUNK_TICKS)
+                self._advance()
         self._read_events()
         self.watch.end()
         progress(1.0)
+
+    def _advance(self) -> None:
+        """A chunk; where the test adapts, it is decided every so often in it what is left out."""
+        rig, conducting = self.rig, self.conducting
+        if conducting is None:
+            rig.advance(CHUNK_TICKS)
+            return
+        told = 0
+        for _ in range(CHUNK_TICKS // LOOK_TICKS):
+            rig.advance(LOOK_TICKS)
+            fresh, told = rig.taken[told:], len(rig.taken)
+            segment = conducting.take(np.concatenate(fresh)) if fresh else None
+            if segment is not None:
+                rig.command(Opcode.SKIP, segment)
+        if rig.taken[told:]:
+            conducting.take(np.concatenate(rig.taken[told:]))
 
     @property
     def ending(self) -> Ending:
@@ -142,7 +162,8 @@ def made_ready(setup: Setup, kept_ticks: int = 0) -> Play | Refusal:
         kept_ticks,
         RIG.period_s,
     )
-    return Play(setup, rig, watch, ticks)
+    conducting = Conducting(setup.definition, RIG.period_s)
+    return Play(setup, rig, watch, ticks, conducting=conducting if conducting.adapts else None)
 
 
 def _ready(setup: Setup) -> WatchedRig:

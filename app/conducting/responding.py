@@ -1,0 +1,80 @@
+"""Every frequency response of a run, as far as it has got: chunk after chunk, with flat memory."""
+
+from collections.abc import Callable
+
+from app.analysis.response.stepped import SteppedSine, channels_of
+from app.analysis.response.transfers import TRANSFERS
+from app.analysis.walk import NEEDED, POSITION, Columns, Part, Walk
+from app.conducting.found import Found
+from app.conducting.multisines import Multisine
+from app.definitions.blocks import Block, Repeat
+from app.definitions.definition import Definition
+from app.definitions.responses import FrequencyResponse
+from app.definitions.windows import stretches
+from app.documents.tree import Path
+
+CHANNELS = channels_of(TRANSFERS.values())
+NEEDS = tuple(dict.fromkeys([POSITION, *NEEDED, *CHANNELS]))
+
+
+def has_responses(definition: Definition) -> bool:
+    """Whether there is a frequency response in a test."""
+    return any(_has_response(block) for block in definition.blocks)
+
+
+def _has_response(block: Block) -> bool:
+    if isinstance(block, Repeat):
+        return any(_has_response(inner) for inner in block.blocks)
+    return isinstance(block, FrequencyResponse)
+
+
+class Responding:
+    """Takes a run chunk by chunk, each with the columns `NEEDS`; gives its points."""
+
+    def __init__(
+        self, definition: Definition, period_s: float, first_tick: int | None = None
+    ) -> None:
+        """`first_tick` is that of the run, where it is not that of its first record."""
+        self._definition = definition
+        self._walk = Walk(stretches(definition), period_s, first_tick, also=CHANNELS)
+        self._stepped = SteppedSine(period_s)
+        self._multisines: dict[Path, Multisine] = {}
+
+    def take(self, chunk: Columns, also: Callable[[Part], None] | None = None) -> None:
+        """The next ticks of the run; each part of a response goes to `also` too."""
+        for part in self._walk.take(chunk):
+            asked = block_at(self._definition, part.stretch.path)
+            if not isinstance(asked, FrequencyResponse):
+                continue
+            if asked.method == "multisine":
+                self._multisine(part, asked).take(part)
+            else:
+                self._stepped.take(part)
+            if also is not None:
+                also(part)
+
+    def points(self) -> list[Found]:
+        """All that there are so far; the last may still change."""
+        stepped = [Found("stepped_sine", point) for point in self._stepped.points()]
+        multisines = [found for one in self._multisines.values() for found in one.points()]
+        return stepped + multisines
+
+    def latest(self) -> list[Found]:
+        """The stepped sine that is being measured now, of each transfer."""
+        return [Found("stepped_sine", point) for point in self._stepped.latest()]
+
+    def _multisine(self, part: Part, asked: FrequencyResponse) -> Multisine:
+        path = part.stretch.path
+        if path not in self._multisines:
+            self._multisines[path] = Multisine(part.stretch.block, asked)
+        return self._multisines[path]
+
+
+def block_at(definition: Definition, path: Path) -> Block | None:
+    """The block of a path, ("blocks", 1, "blocks", 0)."""
+    found: Definition | Block = definition
+    for key in path[1::2]:
+        if not isinstance(found, Definition | Repeat):
+            return None
+        found = found.blocks[int(key)]
+    return None if isinstance(found, Definition) else found
