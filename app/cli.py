@@ -139,6 +139,18 @@ def bench(
 
 
 @cli.command()
+def reproduce(
+    figure: Annotated[str, typer.Argument(help="figure-5, -6, -7, -9, -11, -12, or all.")],
+    out: Annotated[Path, typer.Option(help="The folder that its files go to.")] = Path(),
+    json: Json = False,
+) -> None:
+    """Compute a figure of the paper on the virtual rig: data, picture and a page of a report."""
+    from app.commands.reproduce import run
+
+    raise typer.Exit(run(figure, out, json))
+
+
+@cli.command()
 def backup(
     file: Annotated[
         Path, typer.Argument(help="The archive to make; `.zst` at its end compresses.")
