@@ -22,6 +22,7 @@ class Opcode(IntEnum):
     CLEAR_FAULTS = 14
     TAKE_LEASE = 15  # from now on only commands of this epoch are obeyed
     SKIP = 16  # to a segment further on in the force course, which continues the present sine
+    ADOPT_MODEL = 17  # of the rig, for the twin
 
 
 class Reply(IntEnum):

@@ -101,6 +101,7 @@ CORE = np.dtype(
         ("has_program", "i8"),
         ("has_gains", "i8"),
         ("has_interlocks", "i8"),
+        ("model_due", "i8"),  # the twin is to be of the model in force from its next move on
         ("lease", "i8"),
         ("stops_seen_ns", "i8"),
         ("last_reset_tick", "i8"),

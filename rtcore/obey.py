@@ -12,10 +12,10 @@ from rtcore.compiled import Record, kernel, load_acquire, offset_of
 from rtcore.control.law import adopt_gains, gains_are_valid
 from rtcore.interlocks import interlocks_are_valid
 from rtcore.memory.commands import acknowledge, pending
-from rtcore.memory.layout import BLOCK, COMMAND_SLOTS
+from rtcore.memory.layout import BLOCK, COMMAND_SLOTS, model_address
 from rtcore.memory.playing import rewind
 from rtcore.memory.rings import publish_event
-from rtcore.modes import Event, Mode, is_run
+from rtcore.modes import Event, Mode, is_pressurised, is_run
 from rtcore.program.segments import Segment
 from rtcore.program.skipping import can_skip, skip
 from rtcore.program.validate import (
@@ -25,6 +25,7 @@ from rtcore.program.validate import (
     table_is_bounded,
 )
 from rtcore.rig.faults import KINDS, amount_within
+from rtcore.rig.model import model_is_valid
 from rtcore.sample import sensors_are_sound
 from rtcore.supervise import apply_event, clear_trips, keep_trips, start_run
 
@@ -113,6 +114,20 @@ def _adopt_small(core: Record, block: Record, opcode: int, bank: int) -> int:
 
 
 @kernel
+def _adopt_model(core: Record, block: Record, block_address: int, bank: int) -> int:
+    """What the twin is of from its next move on, while there is no pressure: it begins at rest."""
+    if not 0 <= bank <= 1:
+        return Reply.INVALID_BANK
+    if is_pressurised(core.mode):
+        return Reply.WRONG_MODE
+    if not model_is_valid(model_address(block_address, bank)):
+        return Reply.INVALID_BANK
+    block.active_model = bank
+    core.model_due = 1
+    return Reply.ACCEPTED
+
+
+@kernel
 def _check_next_segments(core: Record, table: Record, first: int, limit: float) -> int:
     """Check a share of a table; -1 invalid, else how many segments of it are checked."""
     last = min(table.count, first + SEGMENTS_A_TICK)
@@ -156,6 +171,15 @@ def _adopt_program(core: Record, block: Record, block_address: int, bank: int) -
     core.has_program = 1
     rewind(core, block, block_address)
     return Reply.ACCEPTED
+
+
+@kernel
+def _adopt(core: Record, block: Record, block_address: int, opcode: int, bank: int) -> int:
+    if opcode == Opcode.ADOPT_PROGRAM:
+        return _adopt_program(core, block, block_address, bank)
+    if opcode == Opcode.ADOPT_MODEL:
+        return _adopt_model(core, block, block_address, bank)
+    return _adopt_small(core, block, opcode, bank)
 
 
 @kernel
@@ -220,10 +244,13 @@ def _take_lease(core: Record, block: Record, block_address: int, epoch: int) -> 
 @kernel
 def _carry_out(core: Record, block: Record, block_address: int, command: Record) -> int:
     opcode, argument = command.opcode, command.argument
-    if opcode in (Opcode.ADOPT_GAINS, Opcode.ADOPT_INTERLOCKS):
-        return _adopt_small(core, block, opcode, argument)
-    if opcode == Opcode.ADOPT_PROGRAM:
-        return _adopt_program(core, block, block_address, argument)
+    if opcode in (
+        Opcode.ADOPT_GAINS,
+        Opcode.ADOPT_INTERLOCKS,
+        Opcode.ADOPT_MODEL,
+        Opcode.ADOPT_PROGRAM,
+    ):
+        return _adopt(core, block, block_address, opcode, argument)
     if opcode == Opcode.INJECT_FAULT:
         return _inject(core, block, block_address, argument, command.value)
     if opcode == Opcode.CLEAR_FAULTS:

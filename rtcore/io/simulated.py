@@ -7,9 +7,10 @@ import numpy as np
 from rtcore.clock import wait_until
 from rtcore.compiled import address_of, carray, kernel, pointer
 from rtcore.core import CORE, make_core
-from rtcore.memory.layout import BLOCK
+from rtcore.memory.layout import BLOCK, model_address
 from rtcore.memory.segment import Block, private_block
 from rtcore.rig.failing import lateness_ns, take_faults
+from rtcore.rig.model import adopt_model
 from rtcore.rig.parameters import RigParameters
 from rtcore.rig.twin import make_twin, move_twin
 from rtcore.rig.world import WORLD, make_world, read_world, write_world
@@ -40,6 +41,9 @@ def cycle(
     read_world(world, core.inputs, period_s)
     if twin_address != 0:
         twin = carray(pointer(twin_address), 1, WORLD)[0]
+        if core.model_due != 0:
+            adopt_model(twin_address, model_address(block_address, block.active_model))
+            core.model_due = 0
         force_n, spool = move_twin(twin, core.outputs, period_s)
         core.observed.twin_force_n = block.twin_force_n = force_n
         core.observed.twin_spool = spool
@@ -69,7 +73,8 @@ def cycle_on_the_clock(
 class SimulatedIo:
     """Loop and simulated rig, bound to one block. `core` and `world` are theirs alone.
 
-    With `twin` a second rig, without noise and without faults, runs beside it on the same outputs.
+    With `twin` a second rig, without noise and without faults, runs beside it on the same outputs: of the
+    same parameters until a model is adopted.
     """
 
     def __init__(

@@ -6,6 +6,7 @@ import numpy as np
 
 from rtcore.channels import TELEMETRY
 from rtcore.codes import EventKind, Opcode, Reply
+from rtcore.compiled import kernel, offset_of
 from rtcore.control.gains import GAINS
 from rtcore.interlocks import (
     INTERLOCKS,
@@ -20,6 +21,7 @@ from rtcore.io import FAULT_SLOTS
 from rtcore.modes import Mode
 from rtcore.program.generator import GENERATOR
 from rtcore.program.segments import PROGRAM, Branch, Segment
+from rtcore.rig.model import MODEL
 
 MAGIC = 0x4749524543524F46  # "FORCERIG", little-endian
 COMMAND_SLOTS = 64
@@ -92,6 +94,7 @@ BLOCK = np.dtype(
         ("active_gains", "i8"),
         ("active_interlocks", "i8"),
         ("active_program", "i8"),
+        ("active_model", "i8"),
         ("late_ticks", "i8"),  # ticks that ended after the next deadline
         ("wakeup_histogram", "i8", (HISTOGRAM_BINS,)),
         ("tick_time_histogram", "i8", (HISTOGRAM_BINS,)),
@@ -100,6 +103,7 @@ BLOCK = np.dtype(
         ("gains", GAINS, (2,)),
         ("interlocks", INTERLOCKS, (2,)),
         ("programs", PROGRAM, (2,)),
+        ("models", MODEL, (2,)),
         ("events", EVENT, (EVENT_SLOTS,)),
         ("conditions", f"S{CONDITIONS_BYTES}"),  # JSON: which real-time conditions were had
     ],
@@ -135,6 +139,16 @@ def _layout_hash() -> int:
 
 LAYOUT_HASH = _layout_hash()
 RING_OFFSET = -(-BLOCK.itemsize // 4096) * 4096
+
+
+_MODELS = offset_of(BLOCK, "models")
+_MODEL_BYTES = MODEL.itemsize
+
+
+@kernel
+def model_address(block_address: int, bank: int) -> int:
+    """Where one of the two models is."""
+    return block_address + _MODELS + bank * _MODEL_BYTES
 
 
 def block_bytes(telemetry_slots: int) -> int:

@@ -20,6 +20,8 @@ from rtcore.loop import account, keep_time, warm_up
 from rtcore.memory.commands import acknowledgement, post
 from rtcore.modes import Mode
 from rtcore.rig.faults import FAULTS, Fault
+from rtcore.rig.model import make_model
+from rtcore.rig.parameters import load_rig
 from rtcore.virtual import Virtual
 from tests.unit.rtcore.programs import gains, harmonic, interlocks, program
 
@@ -131,6 +133,23 @@ def test_a_run_with_all_that_may_happen_in_it_allocates_and_compiles_nothing(rig
     answers = [reply and reply[0] for reply in replies]
     assert answers == [Reply.ACCEPTED] * (len(orders) - 1) + [Reply.CAUSE_PRESENT]
     assert rig.block.fields["snapshot"]["deadlines_missed"] > 0
+
+
+def test_the_adoption_of_a_model_allocates_and_compiles_nothing() -> None:
+    rig = Virtual(gains(), interlocks(), twin=True)
+    rig.io.warm_up()
+    rig.block.fields["models"][1] = make_model(load_rig())
+    answers = []
+
+    def adopt_again_and_again() -> None:
+        for _ in range(20):
+            sequence = post(rig.block, Opcode.ADOPT_MODEL, 1, time_to_live_s=1e6)
+            for _ in range(3):
+                rig.io.cycle(0, 400, 400, 0)
+            answers.append(acknowledgement(rig.block, sequence))
+
+    assert growth(adopt_again_and_again) == (0, [])
+    assert [answer and answer[0] for answer in answers] == [Reply.ACCEPTED] * 20
 
 
 def test_a_rig_with_every_fault_in_turn_allocates_and_compiles_nothing(rig: Virtual) -> None:
