@@ -153,6 +153,19 @@ def test_a_detector_of_a_new_table_is_not_hidden_by_an_old_trip(virtual: Virtual
     assert rig.block.fields["first_out"] == 0
 
 
+def test_a_trip_whose_detector_is_gone_keeps_nothing_from_starting() -> None:
+    rig = make(detector(Quantity.FORCE_N, 1e-3, Action.HOLD))
+    rig.bring_to_ready()
+    rig.advance(100)
+    rig.load_program(program(harmonic(2000.0, 50.0, 5)))
+    assert rig.command(Opcode.START, 1) == Reply.CAUSE_PRESENT
+    rig.block.fields["interlocks"][0] = interlocks(
+        detector(Quantity.SUPPLY_PRESSURE_PA, 1e9, Action.HOLD)
+    )
+    assert rig.command(Opcode.ADOPT_INTERLOCKS, 0) == Reply.ACCEPTED
+    assert rig.command(Opcode.START, 1) == Reply.ACCEPTED
+
+
 def test_a_reset_does_not_erase_why_a_stop_ends_latched(running: Virtual) -> None:
     running.app_beats = False
     assert running.advance(2200)["mode"][-1] == Mode.STOPPING
