@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import welch
 
 from app.histories.curve import Values, pieces, steepest
 
@@ -53,6 +52,8 @@ def survey(values: Values) -> Statistics:
 
 def bandwidth(values: Values) -> float:
     """The frequency below which 99.9 % of the AC power lies, in cycles a sample, by Welch."""
+    from scipy.signal import welch  # a second to load, and few ask
+
     segment = min(_SEGMENT, len(values))
     total = np.zeros(segment // 2 + 1)
     frequencies = np.zeros(segment // 2 + 1)

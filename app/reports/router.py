@@ -13,7 +13,7 @@ from app.jobs.jobs import Job
 from app.jobs.schemas import JobOut
 from app.problems import PROBLEMS, Refused, granted
 from app.reports.orders import Extent, Format
-from app.reports.service import LONGEST_S, Ready, Reports, Wanted
+from app.reports.service import LONGEST_S, Reports, Wanted
 
 router = APIRouter(prefix="/api/v1/runs", tags=["reports"], responses=PROBLEMS)
 RunId = Annotated[int, Path(ge=1, le=2**53)]
@@ -71,14 +71,14 @@ def give_up_run_report(
 
 async def _made(reports: Reports, wanted: Wanted, response: type[FileResponse]) -> FileResponse:
     found = granted(await run_in_threadpool(reports.begin, wanted))
-    ready: Ready
     if isinstance(found, Job):
         with anyio.move_on_after(LONGEST_S):
             while not found.ended.is_set():  # noqa: ASYNC110  # it is set by a thread
                 await anyio.sleep(LOOK_S)
         if not found.ended.is_set():
             raise Refused(reports.too_long(wanted))
-        ready = granted(await run_in_threadpool(reports.outcome, wanted, found))
+        made = await run_in_threadpool(reports.outcome, wanted, found)
+        ready = granted(made)
     else:
         ready = found
     name = f"forcerig-run-{wanted.run_id}.{wanted.format}"

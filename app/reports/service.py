@@ -69,8 +69,8 @@ class Reports:
         if isinstance(job.result, Refusal):
             return job.result
         if job.state is not JobState.DONE:
-            why = job.reason or "it was given up"
-            return Refusal(Code.BUSY, f"The report of run {wanted.run_id} was not made. {why}")
+            code = Code.BUSY if job.state is JobState.CANCELLED else Code.INVALID_REPORT
+            return Refusal(code, f"The report of run {wanted.run_id} was not made. {job.reason}")
         found = self.begin(wanted)
         if isinstance(found, Ready | Refusal):
             return found

@@ -92,11 +92,10 @@ def make(progress: Progress) -> Reproduced:
         tuple(_sheet(row.amplitude_n, found[row.amplitude_n]) for row in TABLE),
         lambda: _draw(found),
         (
-            "The paper gives two numbers, +3.6 dB at 35 Hz and −2.0 dB at 85 Hz, and not for which of its "
-            "amplitudes: the virtual rig's gains were fitted to them, and it shows them at 5 to 10 kN.",
-            "At small amplitudes the bypass damps more (its law is a square root), so the peak is lower and "
-            "the dip deeper: one curve alone would hide that.",
-            "Load cell to setpoint, as the paper measures it; the sheet's numbers are of the true force.",
+            "The paper gives two numbers, +3.6 dB at 35 Hz and −2.0 dB at 85 Hz, and not for which amplitude: "
+            "the virtual rig's gains were fitted to them, and it shows them at 5 to 10 kN. At small ones the "
+            "bypass damps more (its law is a square root): one curve alone would hide that. Ours is load cell "
+            "to setpoint, as the paper measures it; the sheet's numbers are of the true force.",
         ),
     )
 

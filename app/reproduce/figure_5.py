@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.figure import Figure as Canvas
 
 from app.analysis.static import bypass_flow, force_gain, static_command, static_force
-from app.reports.figures.style import SERIES, canvas, tell
+from app.reports.figures.style import SERIES, canvas
 from app.reproduce.made import Beside, Floats, Progress, Reproduced, Sheet
 from app.reproduce.playing import PERIOD_S, play
 from app.sheets.static import with_orifice
@@ -13,6 +13,7 @@ from rtcore.rig.parameters import load_rig
 DIAMETERS_M = (0.60e-3, 0.85e-3, 1.10e-3, 1.40e-3)
 HELD_N = (2_000.0, 5_000.0, 10_000.0, 20_000.0, 30_000.0, 40_000.0, 50_000.0)
 HOLD_S, READ_S = 1.5, 0.5
+SHOWN = 0.4  # of the valve command: beyond that little happens
 
 
 def make(progress: Progress) -> Reproduced:
@@ -82,24 +83,22 @@ def _numbers(valve: Floats) -> list[Beside]:
 
 
 def _draw(sheets: list[Sheet]) -> Canvas:
-    drawn = canvas(120.0)
+    drawn = canvas(88.0)
     left, flow, gain = drawn.subplots(1, 3)
     for sheet, (colour, dash, _) in zip(sheets[:-1], SERIES, strict=False):
-        c = sheet.columns
+        c, style = sheet.columns, {"color": colour, "ls": dash}
         label = sheet.name.removeprefix("orifice_").replace("_", " ")
-        left.plot(c["valve_command"], c["force_n"] / 1e3, color=colour, ls=dash, label=label)
-        flow.plot(c["valve_command"], c["bypass_flow_m3_s"] * 6e4, color=colour, ls=dash)
-        gain.plot(c["valve_command"], c["force_gain_n"] / 1e3, color=colour, ls=dash)
+        left.plot(c["valve_command"], c["force_n"] / 1e3, label=f"orifice {label}", **style)
+        flow.plot(c["valve_command"], c["bypass_flow_m3_s"] * 6e4, **style)
+        gain.plot(c["valve_command"], c["force_gain_n"] / 1e3, **style)
     points = sheets[-1].columns
     left.plot(
         points["valve_command"], points["force_n"] / 1e3, "ok", ms=3.0, mfc="none", label="rig"
     )
-    for axes, up in (
-        (left, "Force (kN)"),
-        (flow, "Bypass flow (l/min)"),
-        (gain, "Force gain (kN)"),
-    ):
+    titles = ("Force (kN)", "Bypass flow (l/min)", "Force gain (kN, whole stroke)")
+    for axes, title in zip((left, flow, gain), titles, strict=True):
         axes.set_xlabel("Valve command")
-        axes.set_ylabel(up)
-    tell(left)
+        axes.set_title(title, fontsize=7.0, loc="left")
+        axes.set_xlim(-SHOWN, SHOWN)
+    drawn.legend(loc="outside upper right", ncols=5)
     return drawn

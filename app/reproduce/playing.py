@@ -35,7 +35,12 @@ class Played(NamedTuple):
     @property
     def time_s(self) -> Floats:
         """(n,) from the first tick."""
-        return np.arange(len(self.records)) * PERIOD_S
+        return times(len(self.records))
+
+
+def times(ticks: int) -> Floats:
+    """(n,) from 0 (s)."""
+    return np.arange(ticks, dtype=np.float64) * PERIOD_S
 
 
 def play(

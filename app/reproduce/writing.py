@@ -41,7 +41,7 @@ def page(made: Reproduced) -> Report:
     with styled():
         svg = as_svg(made.draw())
     number = made.name.removeprefix("figure-")
-    items = (Figure(made.caption, svg, made.caption), _table(made.numbers))
+    items = (Figure("", svg, made.caption), _table(made.numbers))
     words = tuple(Words(text) for text in made.honest)
     sentence = (
         "Computed by the very tick of the loop on the virtual rig, beside the paper's numbers"

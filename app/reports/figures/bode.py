@@ -77,7 +77,7 @@ def bode_figure(bode: Bode) -> bytes:
 def draw_bode(bode: Bode) -> Canvas:
     """It, drawn; inside of `styled`."""
     coherent = any(r.coherence is not None for r in bode.responses)
-    drawn = canvas(118.0 if coherent else 95.0)
+    drawn = canvas(118.0 if coherent else 72.0)
     ratios = [3, 2, 1] if coherent else [3, 2]
     every = list(drawn.subplots(len(ratios), 1, sharex=True, height_ratios=ratios))
     for corridor in bode.corridors:
@@ -103,7 +103,7 @@ def _response(every: Sequence[Axes], i: int, response: Response) -> None:
     shape = {"ls": dash, "marker": marker if response.points and len(f) < 200 else ""}
     if not response.points:
         shape, colour = {"ls": "-", "marker": ""}, PALE
-    every[0].plot(f, response.gain_db, color=colour, label=response.label, ms=2.2, **shape)  # type: ignore[arg-type]
+    every[0].plot(f, response.gain_db, color=colour, label=response.label, ms=2.0, **shape)  # type: ignore[arg-type]
     every[1].plot(f, response.phase_deg, color=colour, ms=2.2, **shape)  # type: ignore[arg-type]
     for axes, band in ((every[0], response.gain_95_db), (every[1], response.phase_95_deg)):
         if band is not None and len(band):
@@ -124,7 +124,7 @@ def _mark(axes: Axes, marked: Marked) -> None:
     axes.annotate(
         marked.text,
         (marked.frequency_hz, marked.gain_db),
-        xytext=(0, 6 if above else -6),
+        xytext=(0, 8 if above else -16),
         textcoords="offset points",
         ha="center",
         va="bottom" if above else "top",

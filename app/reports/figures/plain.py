@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from matplotlib.ticker import FuncFormatter
 
 from app.reports.figures.style import (
     GREY,
@@ -107,12 +108,13 @@ def histogram(
         drawn = canvas(52.0, WIDTH_MM)
         every = drawn.subplots(1, len(counts), squeeze=False, sharey=True)[0]
         for axes, (name, found) in zip(every, counts, strict=True):
-            last = int(np.flatnonzero(found)[-1]) + 2 if found.any() else 2
+            last = min(len(found), int(np.flatnonzero(found)[-1]) + 2) if found.any() else 2
             edges = np.arange(last + 1) * bin_us
             axes.stairs(
                 np.maximum(found[:last], 0.5), edges, baseline=0.5, fill=True, color=MEASURED
             )
             axes.set_yscale("log")
+            axes.yaxis.set_major_formatter(FuncFormatter(lambda n, _: f"{n:,.0f}"))
             axes.set_ylim(bottom=0.5)
             axes.set_title(name, fontsize=7.0, color=INK, loc="left")
             axes.set_xlabel(across)

@@ -100,6 +100,6 @@ def tell(axes: Axes, **more: Any) -> None:
             loc="lower right",
             bbox_to_anchor=(1.0, 1.0),
             borderaxespad=0.1,
-            ncols=min(many, 5),
+            ncols=min(many, 6),
             **more,
         )

@@ -6,9 +6,9 @@ from app.reports.figures.plain import Line, against
 from app.reports.numbers import duration
 from app.reports.report import Figure, Section
 from app.reports.subject import Subject
+from app.reports.telling import moment_of_run
 from app.reports.views import ticks_of
 
-SHOWN_S = 0.5
 MOST_POINTS = 2500
 
 
@@ -16,11 +16,9 @@ def across(subject: Subject) -> Section | None:
     """The middle of the run as X-Y; nothing where it has too few samples."""
     if subject.samples is None:
         return None
-    lasts_s = (subject.samples.last_tick - subject.origin) * subject.period_s
-    shown_s = min(SHOWN_S, lasts_s)
-    from_s = 0.5 * (lasts_s - shown_s)
+    at = moment_of_run(subject)
     names = ("force_n", "force_command_n", "displacement_m")
-    found = ticks_of(subject, names, from_s, from_s + shown_s)
+    found = ticks_of(subject, names, at.from_s, at.to_s)
     if len(found["force_n"]) < 2:
         return None
     step = max(1, len(found["force_n"]) // MOST_POINTS)
@@ -29,7 +27,6 @@ def across(subject: Subject) -> Section | None:
         ("Displacement of the unit (mm)", "Force (kN)", [Line("", moved, force)]),
         ("Setpoint (kN)", "Force (kN)", [Line("", asked, force)]),
     )
-    caption = (
-        f"Force against displacement and against its setpoint, {duration(shown_s)} in the middle"
-    )
+    shown = f"{duration(at.to_s - at.from_s)} at {at.text}"
+    caption = f"Force against displacement of the unit, and against its setpoint: {shown}"
     return Section("X-Y", (Figure(caption, against(pairs), caption),))

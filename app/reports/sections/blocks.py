@@ -3,16 +3,15 @@
 from collections.abc import Iterator
 
 from app.documents.units import unit_of
-from app.reports.numbers import duration, quantity, spoken
+from app.reports.numbers import quantity, spoken
 from app.reports.report import Item, Section, Words
 from app.reports.sections.results import table_of
-from app.reports.sections.time import near
+from app.reports.sections.time import close_up
 from app.reports.subject import Subject
+from app.reports.telling import moment_of_block, spans_of
 from app.runs.results_schemas import BlockMeasurements
 
 MOST = 60
-CYCLES_SHOWN = 6
-SHOWN_S = 0.25
 
 
 def blocks(subject: Subject) -> Iterator[Section]:
@@ -31,35 +30,14 @@ def blocks(subject: Subject) -> Iterator[Section]:
 def _block(subject: Subject, block: BlockMeasurements) -> Section:
     asked = subject.frozen.definition["blocks"][block.block]
     items: list[Item] = [Words(_asked(asked))]
-    within = _times(subject, block.block)
-    if within is not None and subject.samples is not None:
-        from_s, to_s = within
-        shown_s = min(_shown_s(asked), to_s - from_s)
-        start = max(from_s, 0.5 * (from_s + to_s - shown_s))
-        caption = f"Block {block.block + 1}: {duration(shown_s)} in its middle, every tick"
-        items.append(near(subject, start, start + shown_s, caption))
+    if subject.samples is not None and block.block in spans_of(subject):
+        items.append(close_up(subject, moment_of_block(subject, block.block)))
     table = table_of(block.measurements, f"Block {block.block + 1}")
     if table is not None:
         items.append(table)
     return Section(
         f"Block {block.block + 1}: {spoken(block.kind).lower()}", tuple(items), own_page=True
     )
-
-
-def _shown_s(asked: dict[str, object]) -> float:
-    frequency = asked.get("frequency_hz")
-    whole = isinstance(frequency, int | float) and frequency > 0
-    return CYCLES_SHOWN / float(frequency) if whole else SHOWN_S  # type: ignore[arg-type]
-
-
-def _times(subject: Subject, block: int) -> tuple[float, float] | None:
-    """From when to when a block went on, by what the loop reported."""
-    starts = [e for e in subject.events if e.kind == "block"]
-    for i, event in enumerate(starts):
-        if event.code == str(block):
-            last = subject.ticks * subject.period_s
-            return event.time_s, starts[i + 1].time_s if i + 1 < len(starts) else last
-    return None
 
 
 def _asked(asked: dict[str, object]) -> str:

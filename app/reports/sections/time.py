@@ -7,6 +7,7 @@ from app.reports.figures.time import Panel, time_figure
 from app.reports.numbers import duration
 from app.reports.report import Figure, Item, Section, Words
 from app.reports.subject import Subject
+from app.reports.telling import SHOWN_S, Moment, moment_of_run
 from app.reports.views import View, predicted_view, view
 
 CHANNELS = (
@@ -14,8 +15,6 @@ CHANNELS = (
     *("valve_command", "pressure_1_pa", "pressure_2_pa", "supply_pressure_pa"),
 )
 SHORT = ("force_n", "force_command_n", "force_error_n", "valve_command")
-NEAR_S = 0.25
-CYCLES_SHOWN = 8
 
 
 def time(subject: Subject) -> Section | None:
@@ -24,11 +23,15 @@ def time(subject: Subject) -> Section | None:
         return Section("Over time", (Words(f"{subject.without_samples}."),))
     lasts_s = (subject.samples.last_tick - subject.origin) * subject.period_s
     items: list[Item] = [_whole(subject, lasts_s)]
-    if lasts_s > 4.0 * NEAR_S:
-        at = 0.5 * lasts_s
-        caption = f"{duration(NEAR_S)} in the middle of the run, every tick"
-        items.append(near(subject, at, at + NEAR_S, caption))
+    if lasts_s > 4.0 * SHOWN_S:
+        items.append(close_up(subject, moment_of_run(subject)))
     return Section("Over time", tuple(items))
+
+
+def close_up(subject: Subject, moment: Moment) -> Figure:
+    """Every tick of a moment."""
+    caption = f"{duration(moment.to_s - moment.from_s)} at {moment.text}, every tick"
+    return near(subject, moment.from_s, moment.to_s, caption)
 
 
 def overview(subject: Subject) -> Section | None:
