@@ -32,6 +32,7 @@ class Multisine:
         self._leads = False
         self._periods: Periods | None = None
         self._realisations: dict[tuple[float, float], list[Realisation]] = {}
+        self._told: tuple[int, list[Found]] = 0, []  # of so many periods
 
     def take(self, part: Part) -> None:
         """The next part of the block."""
@@ -46,6 +47,17 @@ class Multisine:
 
     def points(self) -> list[Found]:
         """What there is so far, of every transfer."""
+        periods = self._periods_so_far()
+        if self._told[0] != periods:
+            self._told = periods, self._found()
+        return self._told[1]
+
+    def _periods_so_far(self) -> int:
+        going_on = None if self._periods is None else self._periods.realisation()
+        done = [r for realisations in self._realisations.values() for r in realisations]
+        return sum(r.periods for r in [*done, *([going_on] if going_on else [])])
+
+    def _found(self) -> list[Found]:
         found: list[Found] = []
         loads = dict.fromkeys([*self._realisations, *self._loads[: self._number + 1]])
         for mean_n, amplitude_n in loads:
@@ -53,11 +65,6 @@ class Multisine:
             for transfer in TRANSFERS.values() if realisations else ():
                 found += self._read(transfer, realisations, mean_n, amplitude_n)
         return found
-
-    @property
-    def progress(self) -> tuple[int, int]:
-        """Realisations that are done, and how many there will be."""
-        return sum(map(len, self._realisations.values())), len(self._loads)
 
     def _next(self) -> None:
         self._file()

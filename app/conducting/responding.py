@@ -17,15 +17,15 @@ CHANNELS = channels_of(TRANSFERS.values())
 NEEDS = tuple(dict.fromkeys([POSITION, *NEEDED, *CHANNELS]))
 
 
-def has_responses(definition: Definition) -> bool:
-    """Whether there is a frequency response in a test."""
-    return any(_has_response(block) for block in definition.blocks)
-
-
-def _has_response(block: Block) -> bool:
-    if isinstance(block, Repeat):
-        return any(_has_response(inner) for inner in block.blocks)
-    return isinstance(block, FrequencyResponse)
+def responses_in(definition: Definition | Repeat) -> list[FrequencyResponse]:
+    """The frequency responses of a test, those that are repeated once."""
+    found: list[FrequencyResponse] = []
+    for block in definition.blocks:
+        if isinstance(block, Repeat):
+            found += responses_in(block)
+        elif isinstance(block, FrequencyResponse):
+            found.append(block)
+    return found
 
 
 class Responding:

@@ -3,7 +3,7 @@
 import asyncio
 import logging
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 
 from app.link.events import EventReader
 from app.link.life import Life, RingReader
@@ -30,6 +30,7 @@ class Broadcaster:
         self._clients: set[Client] = set()
         self._runs_changed = False
         self._told: deque[tuple[str, str, str]] = deque()
+        self._points: deque[tuple[Hashable, str]] = deque()
         self._task: asyncio.Task[None] | None = None
 
     def start(self) -> None:
@@ -63,6 +64,10 @@ class Broadcaster:
         """Tell everybody of something that the app did, like an event of the loop. From any thread."""
         self._told.append((kind, code, text))
 
+    def tell_point(self, key: Hashable, text: str) -> None:
+        """Tell everybody of a point of a frequency response, instead of one of the same key. From any thread."""
+        self._points.append((key, text))
+
     async def _broadcast(self) -> None:
         clock = asyncio.get_running_loop().time
         status_due = clock()
@@ -87,6 +92,10 @@ class Broadcaster:
                 if event.kind != "lease":  # which is told with names
                     self._put_message(EventFrame.of(event).model_dump_json())
         self._put_told()
+        while self._points:
+            key, text = self._points.popleft()
+            for client in self._clients:
+                client.put_point(key, text)
         if self._samples is not None:
             batch = self._samples.read(MOST_TICKS)
             if len(batch.records):

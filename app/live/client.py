@@ -2,6 +2,7 @@
 
 import asyncio
 from collections import deque
+from collections.abc import Hashable
 from typing import Protocol
 
 from app.live.frame import Stretch
@@ -24,11 +25,12 @@ class TooSlow(Exception):
 
 
 class Client:
-    """Samples: dropped when the queue is full, and counted. Status: the newest wins. Events: kept."""
+    """Samples: dropped when the queue is full, and counted. Status and points: the newest wins. Events: kept."""
 
     def __init__(self) -> None:
         self._messages: deque[str] = deque()
         self._status: str | None = None
+        self._points: dict[Hashable, str] = {}
         self._samples: deque[bytes] = deque()
         self._lost_ticks = 0
         self._wanted: Subscribe | None = None
@@ -52,6 +54,11 @@ class Client:
     def put_status(self, text: str) -> None:
         """Send the status, instead of one that still waits."""
         self._status = text
+        self._something.set()
+
+    def put_point(self, key: Hashable, text: str) -> None:
+        """Send a point of a frequency response, instead of one of the same key that still waits."""
+        self._points[key] = text
         self._something.set()
 
     def put_samples(self, stretch: Stretch, lost_ticks: int) -> None:
@@ -87,6 +94,8 @@ class Client:
         elif self._status is not None:
             status, self._status = self._status, None
             await socket.send_text(status)
+        elif self._points:
+            await socket.send_text(self._points.pop(next(iter(self._points))))
         elif self._samples:
             await socket.send_bytes(self._samples.popleft())
         else:

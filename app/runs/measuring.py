@@ -1,6 +1,6 @@
 """Measures and judges what was recorded of a run, and acquires what its test asks for, in one pass."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +11,7 @@ import pyarrow.parquet as pq
 from app.analysis.acquisition.table import Acquisition
 from app.analysis.predicted import Predicted
 from app.analysis.walk import NEEDED, POSITION, Columns
+from app.conducting.responding import NEEDS, Responding, responses_in
 from app.controller.settings import ControllerSettings
 from app.definitions.definition import Definition
 from app.definitions.reading import definition_from
@@ -21,6 +22,7 @@ from app.prediction.series_file import NAME as PREDICTED
 from app.recording.samples import Samples, open_samples
 from app.runs.acquiring import asked
 from app.runs.acquisition_files import AcquisitionWriter, acquisition_path, writing
+from app.runs.response_file import write_points
 
 
 @dataclass(frozen=True)
@@ -51,12 +53,19 @@ def measure(subject: Subject, histories: Histories | None = None) -> Judged | No
     )
     with ExitStack() as stack:
         tables = _tables(stack, subject, definition, first_tick)
-        for chunk in _chunks(samples, [table for table, _ in tables]):
+        responding = Responding(definition, subject.period_s, first_tick)
+        responds = bool(responses_in(definition))
+        needs = [table.needs for table, _ in tables] + ([NEEDS] if responds else [])
+        for chunk in _chunks(samples, needs):
             run.take(chunk)
+            if responds:
+                responding.take(chunk)
             for table, file in tables:
                 file.append(table.take(chunk))
         for table, file in tables:
             file.append(table.close())
+    if responds:
+        write_points(subject.folder, responding.points())
     return judge_measured(definition, run.result(), completed=subject.completed)
 
 
@@ -80,8 +89,8 @@ def _tables(
     return tables
 
 
-def _chunks(samples: Samples, tables: list[Acquisition]) -> Iterator[Columns]:
-    names = dict.fromkeys([POSITION, *NEEDED, *(name for table in tables for name in table.needs)])
+def _chunks(samples: Samples, needs: Iterable[Sequence[str]]) -> Iterator[Columns]:
+    names = dict.fromkeys([POSITION, *NEEDED, *(name for one in needs for name in one)])
     return samples.chunks(list(names), samples.first_tick, samples.last_tick)
 
 

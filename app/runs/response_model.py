@@ -1,0 +1,80 @@
+"""The linear model's curve behind a measured response: computed once for each rig, controller, amplitude and mean."""
+
+import json
+from collections import OrderedDict
+from collections.abc import Iterable, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor, wait
+from threading import Lock
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from app.analysis.linear import ForceLoop, linear_rig
+from app.controller.record import to_record
+from app.controller.settings import ControllerSettings
+from app.runs.response_schemas import ModelCurve
+from rtcore.rig.parameters import RigParameters
+
+POINTS = 120
+MOST_KEPT = 64
+
+
+class Load(NamedTuple):
+    """For which amplitude and mean (N), and between which frequencies (Hz)."""
+
+    amplitude_n: float
+    mean_n: float
+    from_hz: float
+    to_hz: float
+
+
+class ModelCurves:
+    """Computes curves in a thread of its own and keeps them. May be asked from any thread."""
+
+    def __init__(self) -> None:
+        self._worker = ThreadPoolExecutor(1, "model-curves")
+        self._kept: OrderedDict[tuple[str, Load], Future[ModelCurve | None]] = OrderedDict()
+        self._lock = Lock()
+
+    def of(
+        self, run: Mapping[str, Any], loads: Iterable[Load], period_s: float, wait_s: float
+    ) -> list[ModelCurve]:
+        """The curves of these loads that are there within so long; `run` has its `rig` and `controller`."""
+        made_with = json.dumps([run["rig"], run["controller"], period_s], sort_keys=True)
+        futures = [self._future(made_with, load, run, period_s) for load in loads]
+        done, _ = wait(futures, wait_s)
+        found = (future.result() for future in futures if future in done)
+        return [curve for curve in found if curve is not None]
+
+    def close(self) -> None:
+        """Compute no more."""
+        self._worker.shutdown(cancel_futures=True)
+
+    def _future(
+        self, made_with: str, load: Load, run: Mapping[str, Any], period_s: float
+    ) -> "Future[ModelCurve | None]":
+        key = made_with, load
+        with self._lock:
+            if key not in self._kept:
+                self._kept[key] = self._worker.submit(model_curve, run, load, period_s)
+                while len(self._kept) > MOST_KEPT:
+                    self._kept.popitem(last=False)
+            return self._kept[key]
+
+
+def model_curve(run: Mapping[str, Any], load: Load, period_s: float) -> ModelCurve | None:
+    """Force to setpoint of the rig linearised for a load; None where it cannot be."""
+    try:
+        rig = linear_rig(RigParameters.model_validate(run["rig"]), load.amplitude_n, load.mean_n)
+        gains = to_record(ControllerSettings.model_validate(run["controller"]))
+    except ValueError:  # a mean that this rig cannot hold, or settings of another version
+        return None
+    frequencies_hz = np.geomspace(load.from_hz, load.to_hz, POINTS)
+    response = ForceLoop(rig, gains, period_s).closed_loops(frequencies_hz)
+    return ModelCurve(
+        amplitude_n=load.amplitude_n,
+        mean_n=load.mean_n,
+        frequencies_hz=frequencies_hz.tolist(),
+        gain=np.abs(response).tolist(),
+        phase_deg=np.degrees(np.unwrap(np.angle(response))).tolist(),
+    )

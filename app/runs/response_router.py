@@ -1,0 +1,33 @@
+"""`/api/v1/runs/{id}/frequency-response`."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path, Query, Response
+
+from app.access.dependencies import Viewer
+from app.dependencies import ResponsesService
+from app.prediction.schemas import Computing
+from app.problems import PROBLEMS, granted
+from app.run_analysis.router import COMPUTING, WaitS
+from app.runs.response_schemas import ResponseOut, TransferName
+
+router = APIRouter(prefix="/api/v1/runs", tags=["runs"], responses=PROBLEMS)
+
+
+@router.get(
+    "/{run_id}/frequency-response", operation_id="getFrequencyResponse", responses=COMPUTING
+)
+def get_frequency_response(
+    who: Viewer,
+    run_id: Annotated[int, Path(ge=1, le=2**53)],
+    responses: ResponsesService,
+    response: Response,
+    transfer: Annotated[TransferName, Query(description="from which channel to which")] = "force",
+    wait_s: WaitS = 2.0,
+) -> ResponseOut | Computing:
+    """The points of every frequency response of a run, so far where it is under way, and the model's curve."""
+    found = responses.of(run_id, transfer, wait_s)
+    if isinstance(found, Computing):
+        response.status_code = 202
+        return found
+    return granted(found)

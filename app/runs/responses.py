@@ -1,0 +1,186 @@
+"""The frequency responses of runs: so far, of one under way; kept in its folder, of one that is over."""
+
+import logging
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Lock
+from typing import Any, Protocol, cast
+
+from app.analysis.response.transfers import TRANSFERS
+from app.conducting.found import Found
+from app.conducting.responding import NEEDS, Responding, responses_in
+from app.db import Database
+from app.definitions.responses import FrequencyResponse
+from app.errors import Code, Refusal
+from app.histories.history import Histories
+from app.jobs.jobs import Job, Jobs, JobState
+from app.prediction.schemas import Computing
+from app.recording.samples import open_samples
+from app.runs import repository
+from app.runs.measuring import Subject, read_definition
+from app.runs.no_data import no_data
+from app.runs.response_file import read_points, write_points
+from app.runs.response_model import Load, ModelCurves
+from app.runs.response_schemas import (
+    ModelCurve,
+    ResponseOut,
+    ResponseProgress,
+    ResponseSeries,
+    TransferName,
+)
+from app.runs.response_series import bands_of, series_of
+
+_log = logging.getLogger(__name__)
+MODEL_WAIT_S = 1.0
+
+
+class SoFar(Protocol):
+    """Whoever follows the run under way."""
+
+    def points(self, run_id: int) -> list[Found]: ...
+
+    def progress(self, run_id: int) -> tuple[int, int, float | None] | None: ...
+
+
+@dataclass(frozen=True)
+class _Run:
+    """What has to be known of a run."""
+
+    subject: Subject
+    under_way: bool
+    made_with: dict[str, Any]
+    asked: Sequence[FrequencyResponse]
+    no_data: Refusal
+
+
+class Responses:
+    """The responses of each run of this data directory. May be asked from any thread."""
+
+    def __init__(
+        self, database: Database, runs_dir: Path, so_far: SoFar, histories: Histories | None = None
+    ) -> None:
+        self._database = database
+        self._runs_dir = runs_dir
+        self._so_far = so_far
+        self._histories = histories
+        self._models = ModelCurves()
+        self._jobs: Jobs[None] = Jobs("frequency-responses")
+        self._of_run: dict[int, Job[None]] = {}
+        self._lock = Lock()
+
+    def of(
+        self, run_id: int, transfer: TransferName = "force", wait_s: float = 30.0
+    ) -> ResponseOut | Computing | Refusal:
+        """A transfer of a run; how far it is where its points take longer than `wait_s` to be found again."""
+        run = self._run(run_id)
+        if isinstance(run, Refusal):
+            return run
+        points = self._so_far.points(run_id) if run.under_way else self._kept(run_id, run, wait_s)
+        if isinstance(points, Computing | Refusal):
+            return points
+        series = series_of(points, transfer, run.asked)
+        return ResponseOut(
+            transfer=transfer,
+            unit=TRANSFERS[transfer].unit,
+            available=_available(points),
+            series=series,
+            model=self._model(run, series) if transfer == "force" else [],
+            bands=bands_of(run.asked) if transfer == "force" else [],
+            progress=self._progress(run_id) if run.under_way else None,
+        )
+
+    def close(self) -> None:
+        """Give up what is being computed."""
+        self._jobs.close()
+        self._models.close()
+
+    def _progress(self, run_id: int) -> ResponseProgress | None:
+        found = self._so_far.progress(run_id)
+        if found is None:
+            return None
+        points, of, seconds_left = found
+        return ResponseProgress(points=points, of=of, seconds_left=seconds_left)
+
+    def _model(self, run: _Run, series: Iterable[ResponseSeries]) -> list[ModelCurve]:
+        loads = {
+            Load(s.amplitude_n, s.mean_n, s.points[0].frequency_hz, s.points[-1].frequency_hz): None
+            for s in series
+            if len(s.points) > 1
+        }
+        return self._models.of(run.made_with, loads, run.subject.period_s, MODEL_WAIT_S)
+
+    def _kept(self, run_id: int, run: _Run, wait_s: float) -> list[Found] | Computing | Refusal:
+        folder = run.subject.folder
+        found = read_points(folder)
+        if found is not None or not run.asked:
+            return found or []
+        if open_samples(folder) is None:
+            return run.no_data
+        job = self._job(run_id, run.subject)
+        if isinstance(job, Refusal):
+            return job
+        if not job.ended.wait(wait_s):
+            return Computing(share=job.share, seconds_left=job.seconds_left)
+        found = read_points(folder) if job.state is JobState.DONE else None
+        if found is None:
+            _log.warning("frequency response of run %d: %s", run_id, job.reason)
+            detail = f"The frequency response of run {run_id} cannot be found: {job.reason}"
+            return Refusal(Code.NO_DATA, detail)
+        return found
+
+    def _job(self, run_id: int, subject: Subject) -> Job[None] | Refusal:
+        """The computation of a run: that which is under way, or a new one."""
+        with self._lock:
+            job = self._of_run.get(run_id)
+            if job is not None and not job.ended.is_set():
+                return job
+            title = f"Frequency response of run {run_id}"
+            found = self._jobs.start(title, find_points, subject, self._histories)
+            if isinstance(found, Job):
+                self._of_run = {n: j for n, j in self._of_run.items() if not j.ended.is_set()}
+                self._of_run[run_id] = found
+            return found
+
+    def _run(self, run_id: int) -> _Run | Refusal:
+        with self._database.reading() as session:
+            run = repository.get(session, run_id)
+            if run is None:
+                return Refusal(Code.UNKNOWN_RUN, f"There is no run {run_id}")
+            subject = Subject(
+                folder=self._runs_dir / str(run_id),
+                definition=run.definition,
+                controller=run.controller,
+                period_s=run.period_ns * 1e-9,
+                first_tick=run.first_tick,
+                completed=False,
+            )
+            made_with = {"rig": run.rig, "controller": run.controller}
+            under_way, without = run.outcome is None, no_data(run)
+        try:
+            asked = responses_in(read_definition(subject.definition, self._histories))
+        except ValueError as error:
+            return Refusal(Code.NO_DATA, f"Run {run_id}: {error}")
+        return _Run(subject, under_way, made_with, asked, without)
+
+
+def find_points(report: Any, subject: Subject, histories: Histories | None) -> None:
+    """Find the points of a run that is over and keep them in its folder, as the measuring does."""
+    samples = open_samples(subject.folder)
+    if samples is None:
+        raise ValueError("there are no samples of the run")
+    first_tick = samples.first_tick if subject.first_tick is None else subject.first_tick
+    definition = read_definition(subject.definition, histories)
+    responding = Responding(definition, subject.period_s, first_tick)
+    ticks = max(1, samples.last_tick - samples.first_tick + 1)
+    for chunk in samples.chunks(NEEDS, samples.first_tick, samples.last_tick):
+        responding.take(chunk)
+        if len(chunk["tick"]):
+            report((int(chunk["tick"][-1]) - samples.first_tick + 1) / ticks)
+    write_points(subject.folder, responding.points())
+
+
+def _available(points: Iterable[Found]) -> list[TransferName]:
+    """Those of which there are points; of none yet, the one that is always asked for."""
+    there = {found.point.transfer for found in points}
+    return [cast(TransferName, name) for name in TRANSFERS if name in there] or ["force"]
