@@ -1,6 +1,7 @@
 // A recorded run on canvas: bands of extremes when far away, single ticks when close.
 
 import uPlot from "uplot";
+import { pointAt } from "../live/scene";
 import type { RunSamples } from "../live/types";
 import { theme } from "../theme.svelte";
 import { quantityOf, TIME, withUnit } from "../units";
@@ -187,6 +188,7 @@ export class RunPlot {
     const { samples } = this;
     const at = samples && left >= 0 ? place(samples, this.plot.posToVal(left, "x")) : null;
     this.readout.time.textContent = at === null ? "" : withUnit(TIME, samples?.time_s[at], 3);
+    pointAt(at === null ? null : (samples?.time_s[at] ?? null));
     this.channels.forEach((channel, i) => {
       const field = this.readout.values[i];
       if (field) {
