@@ -10,6 +10,8 @@ from app.audit.service import Audit
 from app.authority.service import Authority
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
+from app.comparison.service import Comparisons
+from app.controller.service import ControllerSettingsBook
 from app.drills.service import Drills
 from app.exports.service import Exports
 from app.first_outs.again import Again
@@ -17,12 +19,15 @@ from app.first_outs.service import FirstOuts
 from app.histories.store import Store
 from app.interlocks.live import LiveTable
 from app.interlocks.service import InterlockTables
+from app.metrics.service import Metrics
 from app.prediction.service import Predictions
 from app.reports.service import Reports
+from app.rig_configuration.service import RigConfigurations
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.run_analysis.service import Analyses
 from app.runs.predicted import RunPredictions
+from app.runs.responses import Responses
 from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
@@ -93,6 +98,10 @@ def _runs(this: ThisConsole) -> Runs:
     return this.runs
 
 
+def _responses(this: ThisConsole) -> Responses:
+    return this.responses
+
+
 def _results(this: ThisConsole) -> Results:
     return this.results
 
@@ -103,6 +112,10 @@ def _scene(this: ThisConsole) -> Scene:
 
 def _analyses(this: ThisConsole) -> Analyses:
     return this.analyses
+
+
+def _comparisons(this: ThisConsole) -> Comparisons:
+    return this.comparisons
 
 
 def _run_windows(this: ThisConsole) -> RunWindows:
@@ -117,6 +130,10 @@ def _system(this: ThisConsole) -> System:
     return this.system
 
 
+def _metrics(this: ThisConsole) -> Metrics:
+    return this.metrics
+
+
 def _predictions(this: ThisConsole) -> Predictions:
     return this.predictions
 
@@ -127,6 +144,14 @@ def _run_predictions(this: ThisConsole) -> RunPredictions:
 
 def _interlocks(this: ThisConsole) -> InterlockTables:
     return this.interlocks
+
+
+def _controllers(this: ThisConsole) -> ControllerSettingsBook:
+    return this.controllers
+
+
+def _rig_configurations(this: ThisConsole) -> RigConfigurations:
+    return this.rig_configurations
 
 
 def _live_interlocks(this: ThisConsole) -> LiveTable:
@@ -154,15 +179,20 @@ FirstOutsService = Annotated[FirstOuts, Depends(_first_outs)]
 FirstOutsAgain = Annotated[Again, Depends(_first_outs_again)]
 DrillsService = Annotated[Drills, Depends(_drills)]
 RunsService = Annotated[Runs, Depends(_runs)]
+ResponsesService = Annotated[Responses, Depends(_responses)]
 ResultsService = Annotated[Results, Depends(_results)]
 SceneService = Annotated[Scene, Depends(_scene)]
 AnalysesService = Annotated[Analyses, Depends(_analyses)]
+ComparisonsService = Annotated[Comparisons, Depends(_comparisons)]
 RunWindowsService = Annotated[RunWindows, Depends(_run_windows)]
 StorageService = Annotated[Storage, Depends(_storage)]
 SystemService = Annotated[System, Depends(_system)]
+MetricsService = Annotated[Metrics, Depends(_metrics)]
 PredictionsService = Annotated[Predictions, Depends(_predictions)]
 RunPredictionsService = Annotated[RunPredictions, Depends(_run_predictions)]
 InterlocksService = Annotated[InterlockTables, Depends(_interlocks)]
+ControllerService = Annotated[ControllerSettingsBook, Depends(_controllers)]
+RigConfigurationService = Annotated[RigConfigurations, Depends(_rig_configurations)]
 LiveInterlocksTable = Annotated[LiveTable, Depends(_live_interlocks)]
 StarterService = Annotated[Starter, Depends(_starter)]
 ReportsService = Annotated[Reports, Depends(_reports)]

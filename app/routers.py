@@ -10,6 +10,8 @@ from app.audit.router import router as audit_router
 from app.authority.router import router as lease_router
 from app.catalogue.router import router as tests_router
 from app.catalogue.texts_router import router as texts_router
+from app.comparison.router import router as comparison_router
+from app.controller.router import router as controller_router
 from app.drills.router import router as drills_router
 from app.exports.router import router as exports_router
 from app.first_outs.again_router import router as first_outs_again_router
@@ -18,11 +20,14 @@ from app.health import router as health_router
 from app.histories.router import router as histories_router
 from app.interlocks.router import router as interlocks_router
 from app.live.router import router as live_router
+from app.metrics.router import router as metrics_router
 from app.prediction.router import router as predictions_router
 from app.reports.router import router as reports_router
+from app.rig_configuration.router import router as rig_configuration_router
 from app.rigs.router import router as rig_router
 from app.run_analysis.router import router as run_analysis_router
 from app.runs.predicted_router import router as predicted_router
+from app.runs.response_router import router as response_router
 from app.runs.results_router import router as results_router
 from app.runs.router import router as runs_router
 from app.runs.samples_router import router as samples_router
@@ -32,6 +37,7 @@ from app.system.router import router as system_router
 
 ROUTERS: tuple[APIRouter, ...] = (
     health_router,
+    metrics_router,
     rig_router,
     lease_router,
     texts_router,
@@ -39,10 +45,12 @@ ROUTERS: tuple[APIRouter, ...] = (
     tests_router,
     histories_router,
     reports_router,
+    comparison_router,  # before the runs: theirs would take its paths for numbers
     runs_router,
     samples_router,
     exports_router,
     results_router,
+    response_router,
     predicted_router,
     run_analysis_router,
     storage_router,
@@ -52,6 +60,8 @@ ROUTERS: tuple[APIRouter, ...] = (
     audit_router,
     system_router,
     interlocks_router,
+    controller_router,
+    rig_configuration_router,
     live_router,
     scene_router,
     auth_router,

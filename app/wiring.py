@@ -3,6 +3,7 @@
 import logging
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from pathlib import Path
 
 from app.access.service import Access
 from app.audit.record import note
@@ -14,7 +15,11 @@ from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
 from app.catalogue.shipped import enter_shipped
 from app.catalogue.written import Reader
+from app.comparison.service import Comparisons
+from app.conducting.live import LiveResponses
+from app.controller.loop_gains import LoopGains
 from app.controller.record import to_record as gains_record
+from app.controller.service import CONTROLLER, ControllerSettingsBook
 from app.db import Database
 from app.definitions.limits import RIG
 from app.drills.scoring import Limits
@@ -31,7 +36,7 @@ from app.histories.store import Store
 from app.interlocks.live import LiveTable
 from app.interlocks.loop_table import LoopTable
 from app.interlocks.record import to_record as interlocks_record
-from app.interlocks.service import INTERLOCKS, InterlockTables, Preset
+from app.interlocks.service import INTERLOCKS, InterlockTables
 from app.interlocks.table import Interlocks
 from app.link.leasing import LoopLease
 from app.link.life import Life
@@ -39,6 +44,8 @@ from app.link.link import Link
 from app.link.paths import block_path
 from app.link.process import LoopCommand
 from app.live.broadcaster import Broadcaster
+from app.metrics.facts import Sources as MetricSources
+from app.metrics.service import Metrics
 from app.prediction.service import Predictions
 from app.presets import Presets
 from app.recording.clerk import Clerk
@@ -46,6 +53,11 @@ from app.recording.recorder import Recorder
 from app.recording.recovery import close_orphans, sweep
 from app.reports.orders import Sources
 from app.reports.service import Reports
+from app.revisions.kind import D, Preset
+from app.rig_configuration.limits import why_not
+from app.rig_configuration.loop_model import LoopModel, model_record
+from app.rig_configuration.record import frozen
+from app.rig_configuration.service import RIG_CONFIGURATION, RigConfigurations
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
 from app.run_analysis.service import Analyses
@@ -54,6 +66,8 @@ from app.runs.ledger import Ledger
 from app.runs.measuring import measure
 from app.runs.plans import Plans
 from app.runs.predicted import RunPredictions
+from app.runs.response_following import KnownRuns, teller
+from app.runs.responses import Responses
 from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
@@ -75,7 +89,6 @@ class Console:
 
     def __init__(self, settings: Settings, presets: Presets, stop_url: str | None = None) -> None:
         self.settings = settings
-        self._presets = presets
         self.database = Database(settings.database_address)
         self.audit = Audit(self.database, settings.data_dir)
         self.access = Access(self.database)
@@ -124,8 +137,11 @@ class Console:
         sources = Sources(settings.database_address, settings.runs_dir, *look)
         self.reports = Reports(self.database, sources)
         self.analyses = Analyses(self.database, settings.runs_dir, self.histories)
+        self.comparisons = Comparisons(self.database, settings.runs_dir, self.histories)
         self.run_windows = RunWindows(self.database, settings.runs_dir)
-        self.predictions = Predictions(presets.controller, presets.interlocks, presets.rig)
+        self.predictions = Predictions(
+            presets.controller, presets.interlocks, presets.configuration.model
+        )
         needs = Needs(
             self.catalogue,
             self.predictions,
@@ -133,18 +149,26 @@ class Console:
             self.authority.check,
             self.rig.why_not_start,
             self._clerk.never_began,
+            lambda plan: why_not(plan, self.rig_configurations.in_force),
         )
         self.starter = Starter(
             self.database, settings.runs_dir, self.link, self.recorder, self._frozen, plans, needs
         )
-        file = presets.interlocks_file
+        kept_in = self.database
+        starting = self.starter.one_at_a_time
         self.interlocks = InterlockTables(
-            INTERLOCKS,
-            self.database,
-            LoopTable(self.link),
-            Preset(presets.interlocks, None if file is None else str(file)),
-            self.starter.one_at_a_time,
-            self._turn_to,
+            *(INTERLOCKS, kept_in, LoopTable(self.link)),
+            *(_preset(presets.interlocks, settings.interlocks_file), starting, self._turn_to),
+        )
+        self.controllers = ControllerSettingsBook(
+            *(CONTROLLER, kept_in, LoopGains(self.link)),
+            *(_preset(presets.controller, settings.controller_file), starting),
+            lambda controller: self.predictions.turn_to(controller=controller),
+        )
+        self.rig_configurations = RigConfigurations(
+            *(RIG_CONFIGURATION, kept_in, LoopModel(self.link)),
+            *(_preset(presets.configuration, settings.rig_configuration_file), starting),
+            lambda configuration: self.predictions.turn_to(rig=configuration.model),
         )
         self.drills = Drills(
             *(self.database, settings.drills_dir, self.link, self.authority.check),
@@ -162,6 +186,21 @@ class Console:
         self.system = System(
             self.database, settings.data_dir, lambda: self.link.life, self.broadcaster.clients
         )
+        looked_at = MetricSources(
+            *(self.status.read, lambda: self.link.life, self.recorder.state),
+            clients=self.broadcaster.clients,
+            database=self.database,
+        )
+        self.metrics = Metrics(looked_at)
+        self._live_responses = LiveResponses(
+            self.link,
+            KnownRuns(self.database, settings.runs_dir, self.histories),
+            teller(self.broadcaster.tell_point),
+            RIG.period_s,
+        )
+        self.responses = Responses(
+            self.database, settings.runs_dir, self._live_responses, self.histories
+        )
         self.command_threads = ThreadPoolExecutor(8, thread_name_prefix="commands")
 
     def open(self) -> None:
@@ -174,7 +213,8 @@ class Console:
         self.access.open()
         self.audit.open()
         enter_shipped(self.database, self.catalogue.reader)
-        self.interlocks.open()
+        for book in (self.interlocks, self.controllers, self.rig_configurations):
+            book.open()
         self._plans.recall(self.database)
         self.link.start()
         self._lease_keeper.start()
@@ -183,6 +223,7 @@ class Console:
         sweep(self.settings.runs_dir, self._clerk)
         close_orphans(self.settings.runs_dir, self._clerk, life.name if life else None)
         self.recorder.start()
+        self._live_responses.start()
         self._keeper.start()
         self.drills.open()
         self.predictions.warm_up()
@@ -195,11 +236,14 @@ class Console:
         self.predictions.close()
         self._reruns.close()
         self.analyses.close()
+        self.comparisons.close()
         self.exports.close()
         self.reports.close()
         self._watcher.close()
         self.drills.close()
         self._lease_keeper.close()
+        self._live_responses.close()
+        self.responses.close()
         self.link.take_load_off()
         self.link.end_loop()
         self._keeper.stop()
@@ -218,24 +262,26 @@ class Console:
 
     def _in_force(self) -> InForce:
         """What a first-out is kept with."""
-        presets, interlocks = self._presets, self.interlocks.in_force.document
         lease = self.authority.shown()
         return InForce(
-            *(presets.controller, interlocks, presets.rig, self.settings.seed),
+            self.controllers.in_force.document,
+            self.interlocks.in_force.document,
+            self.rig_configurations.in_force.document.model,
+            self.settings.seed,
             lease=None if lease is None else lease.model_dump(mode="json"),
         )
 
     def _frozen(self) -> Frozen:
         """What a run is made with besides its test."""
         return Frozen(
-            controller=self._presets.controller.model_dump(mode="json"),
+            controller=self.controllers.in_force.document.model_dump(mode="json"),
             interlocks=self.interlocks.in_force.document.model_dump(mode="json"),
-            rig=self._presets.rig.model_dump(mode="json"),
+            rig=frozen(self.rig_configurations.in_force),
         )
 
     def _turn_to(self, interlocks: Interlocks) -> None:
         """What looks at the table looks at this one from now on."""
-        self.predictions.turn_to(interlocks)
+        self.predictions.turn_to(interlocks=interlocks)
         self.live_interlocks.turn_to(interlocks)
 
     def _runs_changed(self) -> None:
@@ -247,12 +293,14 @@ class Console:
         note(change.entry())
 
     def _configure(self, link: Link) -> bool:
-        """Give a loop that has just started the epoch to obey, its gains and its interlocks."""
+        """Give a loop that has just started the epoch to obey, gains, interlocks and the model of the rig."""
         self.authority.look()
-        interlocks = self.interlocks.in_force.document
+        controller, interlocks = self.controllers.in_force, self.interlocks.in_force
+        model = self.rig_configurations.in_force.document.model
         banks = (
-            (Opcode.ADOPT_GAINS, gains_record(self._presets.controller)),
-            (Opcode.ADOPT_INTERLOCKS, interlocks_record(interlocks, RIG.period_s)),
+            (Opcode.ADOPT_GAINS, gains_record(controller.document)),
+            (Opcode.ADOPT_INTERLOCKS, interlocks_record(interlocks.document, RIG.period_s)),
+            (Opcode.ADOPT_MODEL, model_record(model)),
         )
         for opcode, record in banks:
             refusal = link.adopt(opcode, record)
@@ -260,3 +308,7 @@ class Console:
                 _log.warning("%s", refusal.detail)
                 return False
         return True
+
+
+def _preset(document: D, file: Path | None) -> Preset[D]:
+    return Preset(document, None if file is None else str(file))

@@ -1,4 +1,4 @@
-"""The door: nothing under `/api` or `/scene` is asked, and no body read, before it is known who asks."""
+"""The door: nothing under `/api`, `/scene` or `/metrics` is asked, and no body read, before it is known who asks."""
 
 import logging
 from collections.abc import Mapping
@@ -17,7 +17,7 @@ from app.problems import problem
 
 SIGN_IN = "/api/v1/auth/login"
 NOT_IN = 4401  # close code of a socket whose credential is not good, or no longer
-_GUARDED = ("/api/", "/scene")
+_GUARDED = ("/api/", "/scene", "/metrics")
 SAFE = frozenset({"GET", "HEAD", "OPTIONS"})
 _NO_ANSWER = Refusal(
     Code.DATABASE_UNAVAILABLE, "The database does not answer: try again in a moment"

@@ -20,7 +20,7 @@ MOST_FAILURES = 5
 
 @dataclass(frozen=True)
 class RecorderState:
-    """What the console shows of the recorder; of a run under way, its number and recorded ticks."""
+    """What the console shows of the recorder; of a run under way its number, its ticks, the last one."""
 
     recording: bool
     lost_ticks: int
@@ -28,6 +28,7 @@ class RecorderState:
     trouble: str | None
     run_id: int = 0
     ticks: int = 0
+    last_tick: int = -1
 
 
 class Recorder:
@@ -67,8 +68,9 @@ class Recorder:
         trouble = (tape.trouble if tape is not None else None) or self._unsynced
         if file is None:
             return RecorderState(False, 0, 0, trouble)
-        ticks = file.extent.ticks
-        return RecorderState(True, file.missing_ticks, file.size_bytes, trouble, file.run_id, ticks)
+        extent, size = file.extent, file.size_bytes
+        of = (trouble, file.run_id, extent.ticks, extent.last_tick)
+        return RecorderState(True, file.missing_ticks, size, *of)
 
     def stopped_because(self, run_id: int, reason: str) -> None:
         """The console is about to stop this run for a reason of its own; raises `OSError`."""

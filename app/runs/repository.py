@@ -43,6 +43,12 @@ def operators(session: Session) -> list[str]:
     return [operator for operator in finding.each(session, Run.operator) if operator]
 
 
+def by_outcome(session: Session) -> dict[str, int]:
+    """How many runs ended how."""
+    ended = select(Run.outcome, func.count()).where(Run.outcome.is_not(None)).group_by(Run.outcome)
+    return {str(outcome): count for outcome, count in session.execute(ended)}
+
+
 def without_outcome(session: Session) -> Sequence[Run]:
     """The runs that nobody has written the end of, oldest first."""
     return session.scalars(select(Run).where(Run.outcome.is_(None)).order_by(Run.id)).all()

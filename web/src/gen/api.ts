@@ -164,6 +164,110 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/controller": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Controller
+         * @description The settings in force, by whom, when and why, and whether the loop has them.
+         */
+        get: operations["getController"];
+        /**
+         * Change Controller
+         * @description Put other settings in force, whole or not at all; refused while a test runs.
+         */
+        put: operations["changeController"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/controller/difference": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Difference
+         * @description What two revisions differ in, value by value.
+         */
+        get: operations["getControllerDifference"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/controller/revisions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Revisions
+         * @description The revisions, the newest first.
+         */
+        get: operations["listControllerRevisions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/controller/revisions/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Revision
+         * @description The settings as they were in force once; 0 are those as shipped.
+         */
+        get: operations["getControllerRevision"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/controller/revisions/{number}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Revision
+         * @description Put an earlier revision in force again, as a new one.
+         */
+        post: operations["restoreControllerRevision"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/drills": {
         parameters: {
             query?: never;
@@ -697,6 +801,110 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/rig-configuration": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Configuration
+         * @description The settings in force, by whom, when and why, and whether the loop has them.
+         */
+        get: operations["getRigConfiguration"];
+        /**
+         * Change Configuration
+         * @description Put other settings in force, whole or not at all; refused while a test runs.
+         */
+        put: operations["changeRigConfiguration"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rig-configuration/difference": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Difference
+         * @description What two revisions differ in, value by value.
+         */
+        get: operations["getRigConfigurationDifference"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rig-configuration/revisions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Revisions
+         * @description The revisions, the newest first.
+         */
+        get: operations["listRigConfigurationRevisions"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rig-configuration/revisions/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Revision
+         * @description The settings as they were in force once; 0 are those as shipped.
+         */
+        get: operations["getRigConfigurationRevision"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/rig-configuration/revisions/{number}/restore": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Restore Revision
+         * @description Put an earlier revision in force again, as a new one.
+         */
+        post: operations["restoreRigConfigurationRevision"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/rig/commands": {
         parameters: {
             query?: never;
@@ -766,6 +974,29 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/compare": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Compare Runs
+         * @description Runs over each other with differences from the first, measurements and settings that differ.
+         *
+         *     A difference is tolerated up to the larger of `tolerance_abs`, in the channel's unit, and
+         *     `tolerance_rel` of the baseline's value.
+         */
+        get: operations["compareRuns"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/operators": {
         parameters: {
             query?: never;
@@ -798,6 +1029,26 @@ export interface paths {
          * @description Every tag that a run has, in order.
          */
         get: operations["listRunTags"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/trend": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Run Trend
+         * @description A measurement over the runs of a test, with the line through it: what ages, what drifts.
+         */
+        get: operations["getRunTrend"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1010,6 +1261,26 @@ export interface paths {
          * @description The file, once it is made.
          */
         get: operations["getExportFile"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/runs/{run_id}/frequency-response": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Frequency Response
+         * @description The points of every frequency response of a run, so far where it is under way, and the model's curve.
+         */
+        get: operations["getFrequencyResponse"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1866,6 +2137,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/metrics": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Metrics
+         * @description For Prometheus, with a token that may read: rig, loop, recorder, disk, runs, memory.
+         */
+        get: operations["getMetrics"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
@@ -1942,6 +2233,15 @@ export interface components {
          */
         Action: 0 | 1 | 2 | 3;
         /**
+         * Align
+         * @description What of the runs lies on top of each other.
+         *
+         *     `time`: their first ticks. `block`: the first ticks of a block. `phase`: the setpoint's top; then it is
+         *     the mean cycle of each that is compared, over one cycle from 0 to 360°.
+         * @enum {string}
+         */
+        Align: "time" | "block" | "phase";
+        /**
          * AuditEntry
          * @description Who did what, when and why. `outcome` is "done", or "refused: " and the code of the refusal.
          *
@@ -1997,6 +2297,24 @@ export interface components {
             max: (number | null)[];
             /** Min */
             min: (number | null)[];
+        };
+        /**
+         * BandOut
+         * @description A requirement band of the test.
+         */
+        BandOut: {
+            /** From Hz */
+            from_hz: number;
+            /** High Db */
+            high_db: number | null;
+            /** High Deg */
+            high_deg: number | null;
+            /** Low Db */
+            low_db: number | null;
+            /** Low Deg */
+            low_deg: number | null;
+            /** To Hz */
+            to_hz: number;
         };
         /**
          * BlockMeasurements
@@ -2058,6 +2376,141 @@ export interface components {
             saturation_share: number | null;
         };
         /**
+         * Calibration
+         * @description A sensor and its certificate. Gain and offset are those of the converter behind the I/O boundary.
+         */
+        Calibration: {
+            /** Calibrated On */
+            calibrated_on?: string | null;
+            /**
+             * Certificate
+             * @default
+             */
+            certificate: string;
+            /**
+             * Class Percent
+             * @description accuracy class, of full scale
+             */
+            class_percent?: number | null;
+            /** Due On */
+            due_on?: string | null;
+            /**
+             * Gain
+             * @description SI unit per volt, never 0
+             */
+            gain: number;
+            /**
+             * Maker
+             * @default
+             */
+            maker: string;
+            /**
+             * Offset
+             * @description SI unit, at 0 V
+             * @default 0
+             */
+            offset: number;
+            /**
+             * Part Number
+             * @default
+             */
+            part_number: string;
+            /**
+             * Serial Number
+             * @default
+             */
+            serial_number: string;
+        };
+        /**
+         * CalibrationState
+         * @description A sensor's calibration on a day: `overdue since 2026-01-31`.
+         */
+        CalibrationState: {
+            /** Sensor */
+            sensor: string;
+            /** Text */
+            text: string;
+            word: components["schemas"]["CalibrationWord"];
+        };
+        /**
+         * CalibrationWord
+         * @description What is to be said of a calibration.
+         * @enum {string}
+         */
+        CalibrationWord: "none" | "valid" | "due_soon" | "overdue";
+        /**
+         * Calibrations
+         * @description Of every sensor of the rig.
+         */
+        Calibrations: {
+            /**
+             * @default {
+             *       "certificate": "",
+             *       "gain": 6000,
+             *       "maker": "",
+             *       "offset": 0,
+             *       "part_number": "",
+             *       "serial_number": ""
+             *     }
+             */
+            load_cell: components["schemas"]["Calibration"];
+            /**
+             * @default {
+             *       "certificate": "",
+             *       "gain": 0.0035000000000000005,
+             *       "maker": "",
+             *       "offset": 0,
+             *       "part_number": "",
+             *       "serial_number": ""
+             *     }
+             */
+            lvdt: components["schemas"]["Calibration"];
+            /**
+             * @default {
+             *       "certificate": "",
+             *       "gain": 0.05,
+             *       "maker": "",
+             *       "offset": 0,
+             *       "part_number": "",
+             *       "serial_number": ""
+             *     }
+             */
+            lvt: components["schemas"]["Calibration"];
+            /**
+             * @default {
+             *       "certificate": "",
+             *       "gain": 3500000,
+             *       "maker": "",
+             *       "offset": 0,
+             *       "part_number": "",
+             *       "serial_number": ""
+             *     }
+             */
+            pressure_1: components["schemas"]["Calibration"];
+            /**
+             * @default {
+             *       "certificate": "",
+             *       "gain": 3500000,
+             *       "maker": "",
+             *       "offset": 0,
+             *       "part_number": "",
+             *       "serial_number": ""
+             *     }
+             */
+            pressure_2: components["schemas"]["Calibration"];
+            /**
+             * @default {
+             *       "certificate": "",
+             *       "gain": 3500000,
+             *       "maker": "",
+             *       "offset": 0,
+             *       "part_number": "",
+             *       "serial_number": ""
+             *     }
+             */
+            supply_pressure: components["schemas"]["Calibration"];
+        };
+        /**
          * Chain
          * @description The hard-wired chain; null where nothing is known of it.
          */
@@ -2069,11 +2522,25 @@ export interface components {
          * Change
          * @description One value, by a path such as `controller.k_p` or `interlocks.force_error.threshold`.
          */
-        Change: {
+        "Change-Input": {
             /** Path */
             path: string;
             /** Value */
             value: boolean | number | string | string[] | null;
+        };
+        /**
+         * Change
+         * @description A value that differs; null for one that is not there.
+         */
+        "Change-Output": {
+            /** After */
+            after: boolean | number | string | null;
+            /** Before */
+            before: boolean | number | string | null;
+            /** Path */
+            path: string;
+            /** Unit */
+            unit: string | null;
         };
         /**
          * ChangeKind
@@ -2165,11 +2632,95 @@ export interface components {
             lease?: number | null;
         };
         /**
-         * Comparison
-         * @description When a detector is violated; a NaN violates all of them.
-         * @enum {integer}
+         * ComparedRun
+         * @description A run that is compared; `offset_s` is the time of the run at which the common axis has its zero.
          */
-        Comparison: 0 | 1 | 2 | 3;
+        ComparedRun: {
+            /** Duration S */
+            duration_s: number | null;
+            /** Id */
+            id: number;
+            /** Offset S */
+            offset_s: number | null;
+            /** Operator */
+            operator: string;
+            outcome: components["schemas"]["Outcome"] | null;
+            /** Revision */
+            revision: number | null;
+            /** Software Version */
+            software_version: string;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            /** Test Id */
+            test_id: string;
+            /** Test Name */
+            test_name: string;
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "pass" | "fail" | "unset";
+        };
+        /**
+         * Compensator
+         * @description The kinematic compensation: lead, low-pass and notch on the LVT, then two gains.
+         *
+         *     Lead: (1 + s/ω_z)/(1 + s/ω_p) · f_z/f_p, which is 1 at high frequency. Notch: centred on the
+         *     load frequency. The branch gives FF_V times the filtered velocity plus FF_A times its
+         *     derivative.
+         */
+        Compensator: {
+            /**
+             * Fade S
+             * @description to join or leave
+             * @default 0.1
+             */
+            fade_s: number;
+            /**
+             * Ff A
+             * @description FF_A, s²/m: valve command per m/s²
+             */
+            ff_a: number;
+            /**
+             * Ff V
+             * @description FF_V, s/m: valve command per m/s
+             */
+            ff_v: number;
+            /**
+             * Lead Pole Hz
+             * @description f_p of the lead
+             */
+            lead_pole_hz: number;
+            /**
+             * Lead Zero Hz
+             * @description f_z of the lead
+             */
+            lead_zero_hz: number;
+            /**
+             * Low Pass Damping
+             * @description order 2 only
+             */
+            low_pass_damping?: number | null;
+            /**
+             * Low Pass Hz
+             * @description corner of the low-pass
+             */
+            low_pass_hz: number;
+            /**
+             * Low Pass Order
+             * @default 1
+             * @enum {integer}
+             */
+            low_pass_order: 1 | 2;
+            /**
+             * Notch Damping
+             * @description ζ_d of the notch: half its width
+             */
+            notch_damping: number;
+        };
         /**
          * Computing
          * @description A prediction that is under way; ask again for it.
@@ -2231,6 +2782,99 @@ export interface components {
             unit_error_peak_n: number;
             /** Unit Error Rms N */
             unit_error_rms_n: number;
+        };
+        /**
+         * ControllerOut
+         * @description The settings in force. `in_loop` is whether the loop works with them, `presets` the compensators by name.
+         */
+        ControllerOut: {
+            /** Author */
+            author: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            document: components["schemas"]["ControllerSettings"];
+            /** In Loop */
+            in_loop: boolean;
+            /** Presets */
+            presets: {
+                [key: string]: components["schemas"]["Compensator"];
+            };
+            /** Revision */
+            revision: number;
+            /** Why */
+            why: string;
+        };
+        /**
+         * ControllerRevisionOut
+         * @description With its settings. Number 0 is the one as shipped.
+         */
+        ControllerRevisionOut: {
+            /** Author */
+            author: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            document: components["schemas"]["ControllerSettings"];
+            /** Number */
+            number: number;
+            /** Why */
+            why: string;
+        };
+        /**
+         * ControllerSettings
+         * @description Everything that the control law can be set to; what a file leaves out is as shipped.
+         *
+         *     V = K_P e + I + K_D d + K_FF ΔF_set/T + compensation, with I from K_I and clamping anti-windup.
+         */
+        ControllerSettings: {
+            /** @default COMP4 */
+            compensator: components["schemas"]["Compensator"];
+            /**
+             * Derivative Hz
+             * @description corner of the derivative's filter
+             * @default 190
+             */
+            derivative_hz: number;
+            /**
+             * K D
+             * @description K_D, s/N, on the filtered error
+             * @default 3.39e-8
+             */
+            k_d: number;
+            /**
+             * K Ff
+             * @description K_FF, s/N, on the change of the setpoint
+             * @default 6e-9
+             */
+            k_ff: number;
+            /**
+             * K I
+             * @description K_I, 1/(N s)
+             * @default 0.00438
+             */
+            k_i: number;
+            /**
+             * K P
+             * @description K_P, 1/N: valve command per newton
+             * @default 0.0000119
+             */
+            k_p: number;
+            /**
+             * Valve Limit
+             * @description saturation, valve command
+             * @default 1
+             */
+            valve_limit: number;
+            /**
+             * Valve Slew Per S
+             * @description None: no limit
+             */
+            valve_slew_per_s?: number | null;
         };
         /**
          * CourseOut
@@ -2399,18 +3043,48 @@ export interface components {
             verdict: string;
         };
         /**
-         * Difference
-         * @description What two revisions differ in; `text` is the unified difference of their YAML.
+         * DifferenceOut
+         * @description A run less the baseline, tick against tick, and then in bins; `tolerance` is the least of each bin.
+         *
+         *     `exceeded_share` is of the ticks that both have; null without a tolerance.
          */
-        Difference: {
-            /** Changes */
-            changes: components["schemas"]["ChangeOut"][];
-            /** From */
-            from: number;
-            /** Text */
-            text: string;
-            /** To */
-            to: number;
+        DifferenceOut: {
+            /** Exceeded */
+            exceeded: components["schemas"]["ExceededOut"][];
+            /** Exceeded In All */
+            exceeded_in_all: number;
+            /** Exceeded Share */
+            exceeded_share: number | null;
+            /** Max */
+            max: (number | null)[];
+            /** Min */
+            min: (number | null)[];
+            /** Peak */
+            peak: number;
+            /** Peak At */
+            peak_at: number;
+            /** Rms */
+            rms: number | null;
+            /** Run Id */
+            run_id: number;
+            /** Tolerance */
+            tolerance: (number | null)[] | null;
+        };
+        /**
+         * DocumentChange
+         * @description Another document; what it leaves out is as shipped.
+         */
+        DocumentChange: {
+            /** Based On */
+            based_on: number;
+            /** Document */
+            document: {
+                [key: string]: unknown;
+            };
+            /** Lease */
+            lease?: number | null;
+            /** Why */
+            why: string;
         };
         /**
          * DrillCatalogue
@@ -2618,6 +3292,18 @@ export interface components {
             time_s: number;
         };
         /**
+         * ExceededOut
+         * @description From where to where a difference exceeds its tolerance, and the largest difference there.
+         */
+        ExceededOut: {
+            /** First */
+            first: number;
+            /** Last */
+            last: number;
+            /** Peak */
+            peak: number;
+        };
+        /**
          * Expectation
          * @description Something that had to be so, whether it was, and what was seen.
          */
@@ -2689,6 +3375,18 @@ export interface components {
          * @enum {string}
          */
         Extent: "brief" | "full";
+        /**
+         * ExtremesOut
+         * @description What a Bode diagram is asked for first; null where there is none within the frequencies measured.
+         */
+        ExtremesOut: {
+            dip?: components["schemas"]["PeakOut"] | null;
+            /** Minus 3 Db Hz */
+            minus_3_db_hz?: number | null;
+            /** Minus 90 Deg Hz */
+            minus_90_deg_hz?: number | null;
+            peak?: components["schemas"]["PeakOut"] | null;
+        };
         /**
          * FaultOut
          * @description One thing that is wrong in what was sent; what is not known of it is null.
@@ -2841,6 +3539,37 @@ export interface components {
             tripped_at: string;
             /** Value */
             value: number | null;
+        };
+        /**
+         * Fluid
+         * @description Oil at 40 °C and how it changes with temperature; free air at the reference pressure.
+         */
+        Fluid: {
+            /**
+             * Air N
+             * @description polytropic exponent of the air
+             */
+            air_n: number;
+            /** Bulk Modulus Pa */
+            bulk_modulus_pa: number;
+            /**
+             * Bulk Modulus Slope
+             * @description d(β)/dp of the liquid
+             */
+            bulk_modulus_slope: number;
+            /** Density Kg M3 */
+            density_kg_m3: number;
+            /**
+             * Free Air
+             * @description undissolved air, share of volume
+             */
+            free_air: number;
+            /** Reference Pa */
+            reference_pa: number;
+            /** Temperature C */
+            temperature_c: number;
+            /** Viscosity M2 S */
+            viscosity_m2_s: number;
         };
         /**
          * Form
@@ -3222,6 +3951,37 @@ export interface components {
             knowingly_weaker: string[];
         };
         /**
+         * Item
+         * @description Something with a type plate.
+         */
+        Item: {
+            /**
+             * Maker
+             * @default
+             */
+            maker: string;
+            /**
+             * Name
+             * @default
+             */
+            name: string;
+            /**
+             * Notes
+             * @default
+             */
+            notes: string;
+            /**
+             * Part Number
+             * @default
+             */
+            part_number: string;
+            /**
+             * Serial Number
+             * @default
+             */
+            serial_number: string;
+        };
+        /**
          * JobOut
          * @description How far long work is; `reason` says why nothing came of it.
          */
@@ -3503,6 +4263,70 @@ export interface components {
             tick: number;
         };
         /**
+         * LoadActuator
+         * @description Balanced cylinder on hydrostatic bearings, with its bypass orifice.
+         */
+        LoadActuator: {
+            /** Area M2 */
+            area_m2: number;
+            /** Bypass Diameter M */
+            bypass_diameter_m: number;
+            /** Bypass Discharge */
+            bypass_discharge: number;
+            /**
+             * Bypass Linear M3 S Pa
+             * @description a linear bypass beside the orifice
+             */
+            bypass_linear_m3_s_pa: number;
+            /** Bypass Transition Reynolds */
+            bypass_transition_reynolds: number;
+            /**
+             * Coulomb M S
+             * @description velocity over which friction turns round
+             */
+            coulomb_m_s: number;
+            /** Coulomb N */
+            coulomb_n: number;
+            /** Drain 1 M3 S Pa */
+            drain_1_m3_s_pa: number;
+            /** Drain 2 M3 S Pa */
+            drain_2_m3_s_pa: number;
+            /** Drain Pa */
+            drain_pa: number;
+            /**
+             * End Cap Share
+             * @description left of the smaller chamber where the piston meets its end cap
+             */
+            end_cap_share: number;
+            /**
+             * End Stop N M
+             * @description stiffness of piston on end cap
+             */
+            end_stop_n_m: number;
+            /**
+             * End Stop S M
+             * @description more force at a speed, share a m/s
+             */
+            end_stop_s_m: number;
+            /**
+             * Leak M3 S Pa
+             * @description across the piston
+             */
+            leak_m3_s_pa: number;
+            /** Viscous N S M */
+            viscous_n_s_m: number;
+            /**
+             * Volume 1 M3
+             * @description chamber 1 at mid stroke
+             */
+            volume_1_m3: number;
+            /**
+             * Volume 2 M3
+             * @description chamber 2 at mid stroke
+             */
+            volume_2_m3: number;
+        };
+        /**
          * LoopHealth
          * @description The loop process. Times are over its whole life; null beyond the histogram's 1 ms.
          */
@@ -3669,6 +4493,20 @@ export interface components {
             value: number;
         };
         /**
+         * MeasurementRow
+         * @description One measurement of all runs; block is null for the run as a whole.
+         */
+        MeasurementRow: {
+            /** Block */
+            block: number | null;
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Values */
+            values: components["schemas"]["ValueOut"][];
+        };
+        /**
          * Mode
          * @description What the rig is doing. `TRIPPED` is how the loop starts.
          * @enum {integer}
@@ -3680,6 +4518,22 @@ export interface components {
          * @enum {string}
          */
         ModeWord: "tripped" | "off" | "pressurising" | "ready" | "running" | "holding" | "stopping" | "starting" | "lost";
+        /**
+         * ModelCurve
+         * @description The linear model's response at an amplitude and mean.
+         */
+        ModelCurve: {
+            /** Amplitude N */
+            amplitude_n: number;
+            /** Frequencies Hz */
+            frequencies_hz: number[];
+            /** Gain */
+            gain: number[];
+            /** Mean N */
+            mean_n: number;
+            /** Phase Deg */
+            phase_deg: number[];
+        };
         /**
          * MotionOutline
          * @description One motion of the unit under test.
@@ -3739,6 +4593,28 @@ export interface components {
             peak_force_n: number;
         };
         /**
+         * OverlayOut
+         * @description Runs on one axis: `x` in seconds, or in degrees of a cycle. Without `decimated` each tick is told.
+         */
+        OverlayOut: {
+            align: components["schemas"]["Align"];
+            /** Block */
+            block: number | null;
+            /** Channels */
+            channels: components["schemas"]["app__comparison__schemas__ChannelOut"][];
+            /** Decimated */
+            decimated: boolean;
+            /** Offsets S */
+            offsets_s: (number | null)[];
+            /** X */
+            x: number[];
+            /**
+             * X Unit
+             * @enum {string}
+             */
+            x_unit: "s" | "°";
+        };
+        /**
          * PasswordChange
          * @description A new password; the old one too, where there is one.
          */
@@ -3779,6 +4655,16 @@ export interface components {
             channel: string;
             /** Unit */
             unit: string;
+        };
+        /**
+         * PeakOut
+         * @description A peak or a dip.
+         */
+        PeakOut: {
+            /** Frequency Hz */
+            frequency_hz: number;
+            /** Gain Db */
+            gain_db: number;
         };
         /**
          * Permissive
@@ -3833,7 +4719,7 @@ export interface components {
             /** Reason */
             reason: string | null;
             /** Reasons */
-            reasons: components["schemas"]["Reason"][];
+            reasons: components["schemas"]["Reason-Output"][];
             /** Seed */
             seed: number;
             /** Shortened */
@@ -4015,9 +4901,21 @@ export interface components {
         };
         /**
          * Reason
+         * @description Why something comes into force, on top of which revision; `lease` is the epoch of one's own.
+         */
+        "Reason-Input": {
+            /** Based On */
+            based_on: number;
+            /** Lease */
+            lease?: number | null;
+            /** Why */
+            why: string;
+        };
+        /**
+         * Reason
          * @description Why a prediction is not clear, in a sentence to act on; where and when, counted from the start.
          */
-        Reason: {
+        "Reason-Output": {
             /** Block */
             block?: number | null;
             /** Code */
@@ -4087,7 +4985,7 @@ export interface components {
          * @description What to change, which channels to see in how many stretches, and how long to wait for it.
          */
         RerunAsked: {
-            change: components["schemas"]["Change"];
+            change: components["schemas"]["Change-Input"];
             /**
              * Channels
              * @default [
@@ -4130,6 +5028,100 @@ export interface components {
             /** Text */
             text: string[];
             unchanged: components["schemas"]["CourseOut"];
+        };
+        /**
+         * ResponseOut
+         * @description A transfer of a run at all points that there are, the model's beside it, and what was required.
+         */
+        ResponseOut: {
+            /** Available */
+            available: ("force" | "plant" | "disturbance" | "compliance" | "position")[];
+            /** Bands */
+            bands: components["schemas"]["BandOut"][];
+            /** Model */
+            model: components["schemas"]["ModelCurve"][];
+            progress: components["schemas"]["ResponseProgress"] | null;
+            /** Series */
+            series: components["schemas"]["ResponseSeries"][];
+            /**
+             * Transfer
+             * @enum {string}
+             */
+            transfer: "force" | "plant" | "disturbance" | "compliance" | "position";
+            /** Unit */
+            unit: string;
+        };
+        /**
+         * ResponsePointOut
+         * @description A point with its 95 % intervals; `gain` in the transfer's unit, `gain_db` of one without a unit.
+         *
+         *     Bounds are null where there are none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
+         */
+        ResponsePointOut: {
+            /** Amplitude N */
+            amplitude_n: number;
+            /** Coherence */
+            coherence: number;
+            /** Cycles */
+            cycles: number;
+            /** Distortion Percent */
+            distortion_percent: number | null;
+            /** Frequency Hz */
+            frequency_hz: number;
+            /** Gain */
+            gain: number;
+            /** Gain Db */
+            gain_db: number | null;
+            /** Gain High */
+            gain_high: number | null;
+            /** Gain Low */
+            gain_low: number;
+            /** Mean N */
+            mean_n: number;
+            /** Noise Std */
+            noise_std: number | null;
+            /** Nonlinear Std */
+            nonlinear_std: number | null;
+            /** Phase Deg */
+            phase_deg: number;
+            /** Phase High Deg */
+            phase_high_deg: number;
+            /** Phase Low Deg */
+            phase_low_deg: number;
+            /** Settled */
+            settled: boolean;
+        };
+        /**
+         * ResponseProgress
+         * @description How many points there are, of how many so far expected.
+         */
+        ResponseProgress: {
+            /** Of */
+            of: number;
+            /** Points */
+            points: number;
+            /** Seconds Left */
+            seconds_left: number | null;
+        };
+        /**
+         * ResponseSeries
+         * @description The points of one block, amplitude and mean, by frequency. `amplitude_n` is that which was asked for.
+         */
+        ResponseSeries: {
+            /** Amplitude N */
+            amplitude_n: number;
+            /** Block */
+            block: number;
+            extremes: components["schemas"]["ExtremesOut"];
+            /** Mean N */
+            mean_n: number;
+            /**
+             * Method
+             * @enum {string}
+             */
+            method: "stepped_sine" | "multisine" | "sweep";
+            /** Points */
+            points: components["schemas"]["ResponsePointOut"][];
         };
         /**
          * ResumePreview
@@ -4220,28 +5212,157 @@ export interface components {
             why: string;
         };
         /**
-         * RevisionSummary
-         * @description A revision in the list.
-         */
-        RevisionSummary: {
-            /** Author */
-            author: string;
-            /** Comment */
-            comment: string;
-            /**
-             * Created At
-             * Format: date-time
-             */
-            created_at: string;
-            /** Number */
-            number: number;
-        };
-        /**
          * RigCommand
          * @description What an operator may ask of the rig. Starting a run is its own request.
          * @enum {string}
          */
         RigCommand: "reset" | "pressurise" | "depressurise" | "tare" | "hold" | "resume" | "stop" | "shutdown";
+        /**
+         * RigConfiguration
+         * @description What predictions, the live twin, linear analysis and reports know of the rig.
+         *
+         *     The model describes the rig behind the I/O boundary, which knows nothing of it: a simulated one stays as it
+         *     was started.
+         */
+        RigConfiguration: {
+            /**
+             * @default {
+             *       "load_cell": {
+             *         "certificate": "",
+             *         "gain": 6000,
+             *         "maker": "",
+             *         "offset": 0,
+             *         "part_number": "",
+             *         "serial_number": ""
+             *       },
+             *       "lvdt": {
+             *         "certificate": "",
+             *         "gain": 0.0035000000000000005,
+             *         "maker": "",
+             *         "offset": 0,
+             *         "part_number": "",
+             *         "serial_number": ""
+             *       },
+             *       "lvt": {
+             *         "certificate": "",
+             *         "gain": 0.05,
+             *         "maker": "",
+             *         "offset": 0,
+             *         "part_number": "",
+             *         "serial_number": ""
+             *       },
+             *       "pressure_1": {
+             *         "certificate": "",
+             *         "gain": 3500000,
+             *         "maker": "",
+             *         "offset": 0,
+             *         "part_number": "",
+             *         "serial_number": ""
+             *       },
+             *       "pressure_2": {
+             *         "certificate": "",
+             *         "gain": 3500000,
+             *         "maker": "",
+             *         "offset": 0,
+             *         "part_number": "",
+             *         "serial_number": ""
+             *       },
+             *       "supply_pressure": {
+             *         "certificate": "",
+             *         "gain": 3500000,
+             *         "maker": "",
+             *         "offset": 0,
+             *         "part_number": "",
+             *         "serial_number": ""
+             *       }
+             *     }
+             */
+            calibrations: components["schemas"]["Calibrations"];
+            /**
+             * Lab
+             * @description name of the lab that runs the rig
+             * @default
+             */
+            lab: string;
+            /** @default {} */
+            limits: components["schemas"]["app__rig_configuration__configuration__Limits"];
+            model?: components["schemas"]["RigParameters"];
+            /**
+             * @default {
+             *       "maker": "",
+             *       "name": "Tail rotor actuator rig",
+             *       "notes": "",
+             *       "part_number": "",
+             *       "serial_number": ""
+             *     }
+             */
+            rig: components["schemas"]["Item"];
+            /**
+             * @default {
+             *       "maker": "",
+             *       "name": "Tail rotor actuator",
+             *       "notes": "",
+             *       "part_number": "",
+             *       "serial_number": ""
+             *     }
+             */
+            unit_under_test: components["schemas"]["Item"];
+        };
+        /**
+         * RigConfigurationOut
+         * @description The configuration in force. `in_loop` is whether the loop's twin is of its model.
+         */
+        RigConfigurationOut: {
+            /** Author */
+            author: string;
+            /** Calibrations */
+            calibrations: components["schemas"]["CalibrationState"][];
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            document: components["schemas"]["RigConfiguration"];
+            /** In Loop */
+            in_loop: boolean;
+            /** Revision */
+            revision: number;
+            /** Why */
+            why: string;
+        };
+        /**
+         * RigConfigurationRevisionOut
+         * @description With its document. Number 0 is the one as shipped.
+         */
+        RigConfigurationRevisionOut: {
+            /** Author */
+            author: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            document: components["schemas"]["RigConfiguration"];
+            /** Number */
+            number: number;
+            /** Why */
+            why: string;
+        };
+        /**
+         * RigParameters
+         * @description Everything that the simulated rig is made of.
+         */
+        RigParameters: {
+            fluid: components["schemas"]["Fluid"];
+            load_actuator: components["schemas"]["LoadActuator"];
+            /** Name */
+            name: string;
+            sensors: components["schemas"]["Sensors"];
+            servovalve: components["schemas"]["Servovalve"];
+            structure: components["schemas"]["Structure"];
+            supply: components["schemas"]["Supply"];
+            unit: components["schemas"]["UnitUnderTest"];
+        };
         /**
          * RigStatus
          * @description Everything that is always on the screen.
@@ -4255,7 +5376,7 @@ export interface components {
             /** Injected */
             injected: string[];
             lease: components["schemas"]["LeaseOut"] | null;
-            limits: components["schemas"]["Limits"];
+            limits: components["schemas"]["app__rigs__schemas__Limits"];
             loop: components["schemas"]["LoopHealth"];
             mode: components["schemas"]["ModeWord"];
             /** Mode Since S */
@@ -4669,6 +5790,105 @@ export interface components {
             safe_ticks: number | null;
         };
         /**
+         * Sensors
+         * @description Chains, noise at the converter (1 sigma) and full scale of the 16-bit converters.
+         */
+        Sensors: {
+            /** Bits */
+            bits: number;
+            /** Displacement Range M */
+            displacement_range_m: number;
+            /** Force Noise N */
+            force_noise_n: number;
+            /** Force Range N */
+            force_range_n: number;
+            /** Omega Lc Rad S */
+            omega_lc_rad_s: number;
+            /** Omega Lvt Rad S */
+            omega_lvt_rad_s: number;
+            /** Pressure Range Pa */
+            pressure_range_pa: number;
+            /** Velocity Noise M S */
+            velocity_noise_m_s: number;
+            /** Velocity Range M S */
+            velocity_range_m_s: number;
+            /** Zeta Lc */
+            zeta_lc: number;
+        };
+        /**
+         * SeriesOut
+         * @description Least and greatest of a run's channel at each place of the axis.
+         */
+        SeriesOut: {
+            /** Max */
+            max: (number | null)[];
+            /** Min */
+            min: (number | null)[];
+            /** Run Id */
+            run_id: number;
+        };
+        /**
+         * Servovalve
+         * @description First stage, spool and four lands; underlap > 0 is open at null.
+         */
+        Servovalve: {
+            /**
+             * Clearance M
+             * @description radial, spool to sleeve
+             */
+            clearance_m: number;
+            /**
+             * Discharge
+             * @description turbulent C_d of a land
+             */
+            discharge: number;
+            /** Flapper Stop C */
+            flapper_stop_c: number;
+            /** Flapper Stop K */
+            flapper_stop_k: number;
+            /**
+             * Null M
+             * @description null offset of the spool
+             */
+            null_m: number;
+            /** Omega F Rad S */
+            omega_f_rad_s: number;
+            /**
+             * Spool Gain Rad S
+             * @description K_sp of the external electronics
+             */
+            spool_gain_rad_s: number;
+            /**
+             * Spool Rate M S
+             * @description at the flapper's end of travel
+             */
+            spool_rate_m_s: number;
+            /** Spool Stop 1 S */
+            spool_stop_1_s: number;
+            /**
+             * Spool Stroke M
+             * @description half stroke
+             */
+            spool_stroke_m: number;
+            /** Transition Reynolds */
+            transition_reynolds: number;
+            /** Underlap At M */
+            underlap_at_m: number;
+            /** Underlap Bt M */
+            underlap_bt_m: number;
+            /** Underlap Pa M */
+            underlap_pa_m: number;
+            /** Underlap Pb M */
+            underlap_pb_m: number;
+            /**
+             * Window M
+             * @description metering width of a land
+             */
+            window_m: number;
+            /** Zeta F */
+            zeta_f: number;
+        };
+        /**
          * SessionOut
          * @description A browser that is signed in; `present` for the one that asks.
          */
@@ -4694,6 +5914,21 @@ export interface components {
             present: boolean;
             /** User */
             user: string;
+        };
+        /**
+         * SettingRow
+         * @description A setting that is not the same in all runs, with its value in each, in their order.
+         */
+        SettingRow: {
+            /**
+             * Part
+             * @enum {string}
+             */
+            part: "definition" | "controller" | "interlocks" | "rig";
+            /** Path */
+            path: string;
+            /** Values */
+            values: unknown[];
         };
         /**
          * Settings
@@ -4858,6 +6093,32 @@ export interface components {
          */
         StorageWord: "ok" | "low" | "full";
         /**
+         * Structure
+         * @description Masses (kg), stiffnesses (N/m) and dampings (N s/m) of the chain, in the paper's names.
+         */
+        Structure: {
+            /** C 2 */
+            c_2: number;
+            /** C Lc */
+            c_lc: number;
+            /** C Pl */
+            c_pl: number;
+            /** K 2 */
+            k_2: number;
+            /** K Lc */
+            k_lc: number;
+            /** K Pl */
+            k_pl: number;
+            /** M 1 Kg */
+            m_1_kg: number;
+            /** M 2 Kg */
+            m_2_kg: number;
+            /** M B Kg */
+            m_b_kg: number;
+            /** M La Kg */
+            m_la_kg: number;
+        };
+        /**
          * Subscribe
          * @description From the browser: the channels it wants, instead of those before.
          */
@@ -4871,6 +6132,85 @@ export interface components {
              * @constant
              */
             type: "subscribe";
+        };
+        /**
+         * Supply
+         * @description Pump, lines and accumulators; pressures are absolute.
+         */
+        Supply: {
+            /**
+             * Accumulator N
+             * @description polytropic exponent of the gas
+             */
+            accumulator_n: number;
+            /** Accumulator Return M3 */
+            accumulator_return_m3: number;
+            /** Accumulator Supply M3 */
+            accumulator_supply_m3: number;
+            /**
+             * Bleed M3 S
+             * @description bleed valve, flow at high pressure
+             */
+            bleed_m3_s: number;
+            /**
+             * High Pa
+             * @description pump pressure at high
+             */
+            high_pa: number;
+            /**
+             * Hose M3 Pa
+             * @description elasticity of the hoses, below precharge
+             */
+            hose_m3_pa: number;
+            /**
+             * Line Return K
+             * @description quadratic loss, Pa/(m³/s)²
+             */
+            line_return_k: number;
+            /**
+             * Line Return R
+             * @description laminar loss, Pa/(m³/s)
+             */
+            line_return_r: number;
+            /**
+             * Line Supply K
+             * @description quadratic loss, Pa/(m³/s)²
+             */
+            line_supply_k: number;
+            /**
+             * Line Supply R
+             * @description laminar loss, Pa/(m³/s)
+             */
+            line_supply_r: number;
+            /**
+             * Low Pa
+             * @description pump pressure at low
+             */
+            low_pa: number;
+            /** Precharge Return Pa */
+            precharge_return_pa: number;
+            /** Precharge Supply Pa */
+            precharge_supply_pa: number;
+            /**
+             * Ramp Pa S
+             * @description how fast the pump's pressure control moves
+             */
+            ramp_pa_s: number;
+            /**
+             * Relief M3 S Pa
+             * @description relief valve, flow over cracking pressure
+             */
+            relief_m3_s_pa: number;
+            /**
+             * Relief Pa
+             * @description cracking pressure of the relief valve
+             */
+            relief_pa: number;
+            /**
+             * Tank Pa
+             * @description tank and return line
+             */
+            tank_pa: number;
         };
         /**
          * TableRevision
@@ -5194,6 +6534,74 @@ export interface components {
             scope: components["schemas"]["Scope"];
         };
         /**
+         * Trend
+         * @description A measurement over the runs of a test, oldest first; `runs_in_all` counts those before them too.
+         *
+         *     `line` is null where there are too few runs.
+         */
+        Trend: {
+            /** Block */
+            block: number | null;
+            line: components["schemas"]["TrendLine"] | null;
+            /** Mean */
+            mean: number | null;
+            /** Measurement */
+            measurement: string;
+            /** Points */
+            points: components["schemas"]["TrendPoint"][];
+            /** Runs In All */
+            runs_in_all: number;
+            /** Test Id */
+            test_id: string;
+            /** Unit */
+            unit: string;
+        };
+        /**
+         * TrendLine
+         * @description The line through the values; slopes are a day, their interval holds the truth in 95 of 100 cases.
+         *
+         *     `leans` says that a slope of zero is not in it.
+         */
+        TrendLine: {
+            /** Deviation */
+            deviation: number;
+            /** First */
+            first: number;
+            /** Last */
+            last: number;
+            /** Leans */
+            leans: boolean;
+            /** Slope */
+            slope: number;
+            /** Slope High */
+            slope_high: number;
+            /** Slope Low */
+            slope_low: number;
+        };
+        /**
+         * TrendPoint
+         * @description A measurement of one run, with the limits that its test gave it.
+         */
+        TrendPoint: {
+            /** At Least */
+            at_least: number | null;
+            /** At Most */
+            at_most: number | null;
+            /** Outcome */
+            outcome: string | null;
+            /** Revision */
+            revision: number | null;
+            /** Run Id */
+            run_id: number;
+            /**
+             * Started At
+             * Format: date-time
+             */
+            started_at: string;
+            /** Value */
+            value: number;
+        };
+        /**
          * Trip
          * @description A detector that has tripped; `first` for the one that took the load off first.
          *
@@ -5266,6 +6674,27 @@ export interface components {
             unit_lowest_n: number;
         };
         /**
+         * UnitUnderTest
+         * @description The tail rotor actuator: stiffness, and the servo that moves its output.
+         */
+        UnitUnderTest: {
+            /** C Tra */
+            c_tra: number;
+            /** K Tra */
+            k_tra: number;
+            /** Omega T Rad S */
+            omega_t_rad_s: number;
+            /** Rate M S */
+            rate_m_s: number;
+            /**
+             * Stroke M
+             * @description half stroke
+             */
+            stroke_m: number;
+            /** Zeta T */
+            zeta_t: number;
+        };
+        /**
          * UserChange
          * @description What is to be another; what is not given stays.
          */
@@ -5322,6 +6751,20 @@ export interface components {
             value: unknown;
         };
         /**
+         * ValueOut
+         * @description A measurement of one run, by how much it differs from the baseline's, and whether that is tolerated.
+         */
+        ValueOut: {
+            /** Difference */
+            difference: number | null;
+            /** Run Id */
+            run_id: number;
+            /** Value */
+            value: number | null;
+            /** Within */
+            within: boolean | null;
+        };
+        /**
          * Valve
          * @description The valve command: its peak, the share of the test at its limit, and the longest stretch of that.
          */
@@ -5363,6 +6806,68 @@ export interface components {
             detector: string;
             /** Text */
             text: string;
+        };
+        /**
+         * Difference
+         * @description What two revisions differ in; `text` is the unified difference of their YAML.
+         */
+        app__catalogue__schemas__Difference: {
+            /** Changes */
+            changes: components["schemas"]["ChangeOut"][];
+            /** From */
+            from: number;
+            /** Text */
+            text: string;
+            /** To */
+            to: number;
+        };
+        /**
+         * RevisionSummary
+         * @description A revision in the list.
+         */
+        app__catalogue__schemas__RevisionSummary: {
+            /** Author */
+            author: string;
+            /** Comment */
+            comment: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Number */
+            number: number;
+        };
+        /**
+         * ChannelOut
+         * @description One channel of all runs.
+         */
+        app__comparison__schemas__ChannelOut: {
+            /** Channel */
+            channel: string;
+            /** Differences */
+            differences: components["schemas"]["DifferenceOut"][];
+            /** Series */
+            series: components["schemas"]["SeriesOut"][];
+            /** Unit */
+            unit: string;
+        };
+        /**
+         * Comparison
+         * @description Runs beside one another.
+         */
+        app__comparison__schemas__Comparison: {
+            /** Baseline Id */
+            baseline_id: number;
+            /** Measurements */
+            measurements: components["schemas"]["MeasurementRow"][];
+            overlay: components["schemas"]["OverlayOut"];
+            /** Runs */
+            runs: components["schemas"]["ComparedRun"][];
+            /** Settings */
+            settings: components["schemas"]["SettingRow"][];
+            /** Settings In All */
+            settings_in_all: number;
         };
         /**
          * Peaks
@@ -5408,6 +6913,81 @@ export interface components {
             /** Velocity M S */
             velocity_m_s: number | null;
         };
+        /**
+         * Difference
+         * @description What two revisions differ in; null for one that is not stored.
+         */
+        app__revisions__schemas__Difference: {
+            /** Before */
+            before: number | null;
+            /** Changes */
+            changes: components["schemas"]["Change-Output"][];
+            /** To */
+            to: number | null;
+        };
+        /**
+         * RevisionSummary
+         * @description A revision that was once in force: by whom, when and why.
+         */
+        app__revisions__schemas__RevisionSummary: {
+            /** Author */
+            author: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Number */
+            number: number;
+            /** Why */
+            why: string;
+        };
+        /**
+         * Limits
+         * @description What the lab lets tests ask of this rig and unit, within what the rig can do; None for no limit of its own.
+         */
+        app__rig_configuration__configuration__Limits: {
+            /** Displacement M */
+            displacement_m?: number | null;
+            /** Force N */
+            force_n?: number | null;
+        };
+        /**
+         * ChannelOut
+         * @description A channel of the telemetry; `dtype` as NumPy writes it.
+         */
+        app__rigs__schemas__ChannelOut: {
+            /** Doc */
+            doc: string;
+            /** Dtype */
+            dtype: string;
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+        };
+        /**
+         * Limits
+         * @description What the detectors in force allow; the supply's is what the pump gives. Null for no limit.
+         */
+        app__rigs__schemas__Limits: {
+            /** Displacement M */
+            displacement_m: number | null;
+            /** Force Error N */
+            force_error_n: number | null;
+            /** Force N */
+            force_n: number | null;
+            /** Supply Pressure Pa */
+            supply_pressure_pa: number | null;
+            /** Velocity M S */
+            velocity_m_s: number | null;
+        };
+        /**
+         * Comparison
+         * @description When a detector is violated; a NaN violates all of them.
+         * @enum {integer}
+         */
+        rtcore__interlocks__Comparison: 0 | 1 | 2 | 3;
     };
     responses: never;
     parameters: never;
@@ -5649,7 +7229,200 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["ChannelOut"][];
+                    "application/json": components["schemas"]["app__rigs__schemas__ChannelOut"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getController: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ControllerOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    changeController: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DocumentChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ControllerOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getControllerDifference: {
+        parameters: {
+            query: {
+                from: number;
+                to: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["app__revisions__schemas__Difference"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listControllerRevisions: {
+        parameters: {
+            query?: {
+                /** @description the last number of the page before */
+                before?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["app__revisions__schemas__RevisionSummary"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getControllerRevision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ControllerRevisionOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    restoreControllerRevision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Reason-Input"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ControllerOut"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -6695,6 +8468,199 @@ export interface operations {
             };
         };
     };
+    getRigConfiguration: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RigConfigurationOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    changeRigConfiguration: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DocumentChange"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RigConfigurationOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRigConfigurationDifference: {
+        parameters: {
+            query: {
+                from: number;
+                to: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["app__revisions__schemas__Difference"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listRigConfigurationRevisions: {
+        parameters: {
+            query?: {
+                /** @description the last number of the page before */
+                before?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["app__revisions__schemas__RevisionSummary"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRigConfigurationRevision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RigConfigurationRevisionOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    restoreRigConfigurationRevision: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Reason-Input"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RigConfigurationOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     commandRig: {
         parameters: {
             query?: never;
@@ -6832,6 +8798,56 @@ export interface operations {
             };
         };
     };
+    compareRuns: {
+        parameters: {
+            query: {
+                /** @description 2 to 8 runs, the baseline first */
+                ids: string;
+                channels?: string;
+                align?: components["schemas"]["Align"];
+                block?: number | null;
+                from_s?: number;
+                to_s?: number | null;
+                points?: number;
+                tolerance_abs?: number | null;
+                tolerance_rel?: number | null;
+                wait_s?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["app__comparison__schemas__Comparison"];
+                };
+            };
+            /** @description Still being computed: ask again */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Computing"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     listRunOperators: {
         parameters: {
             query?: never;
@@ -6877,6 +8893,40 @@ export interface operations {
                 };
                 content: {
                     "application/json": string[];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getRunTrend: {
+        parameters: {
+            query: {
+                measurement: string;
+                test_id: string;
+                block?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Trend"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -7323,6 +9373,50 @@ export interface operations {
                     "application/x-matlab-data": string;
                     "application/x-tdms": string;
                     "text/csv; charset=utf-8": string;
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getFrequencyResponse: {
+        parameters: {
+            query?: {
+                /** @description from which channel to which */
+                transfer?: "force" | "plant" | "disturbance" | "compliance" | "position";
+                wait_s?: number;
+            };
+            header?: never;
+            path: {
+                run_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ResponseOut"] | components["schemas"]["Computing"];
+                };
+            };
+            /** @description Still being computed: ask again */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Computing"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -8412,7 +10506,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Difference"];
+                    "application/json": components["schemas"]["app__catalogue__schemas__Difference"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -8518,7 +10612,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["RevisionSummary"][];
+                    "application/json": components["schemas"]["app__catalogue__schemas__RevisionSummary"][];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -8908,6 +11002,35 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Health"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getMetrics: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain; version=1.0.0; charset=utf-8": string;
                 };
             };
             /** @description A problem document (RFC 9457) */

@@ -1,0 +1,1 @@
+"""What a monitoring system asks for: the console and its loop as Prometheus metrics."""
