@@ -1,0 +1,105 @@
+"""The mean cycle of a run: its channels over the phase of the setpoint, wherever that began.
+
+So runs compare that began, were held or turned at other times, or at another frequency.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from scipy.interpolate import CubicSpline
+
+from app.analysis.evidence import Sine, Stretch
+from app.analysis.walk import Columns, Part, Walk
+
+BINS = 720  # of a cycle, in which samples are gathered
+MOST_FITTED = 20_000  # ticks that the setpoint's phase is read from
+LEAST_BINS = 5  # a cycle with fewer samples is none
+
+Floats = npt.NDArray[np.float64]
+
+
+class MeanCycle:
+    """Gathers the counted cycles of one block's first sine; part after part of a run."""
+
+    def __init__(
+        self,
+        stretches: Iterable[Stretch],
+        channels: Sequence[str],
+        period_s: float,
+        first_tick: int,
+        block: int | None = None,
+    ) -> None:
+        """`block` is None for the first that has a sine."""
+        self._walk = Walk(stretches, period_s, first_tick, also=channels)
+        self._channels = tuple(channels)
+        self._period_s = period_s
+        self.block = block
+        self.sine: Sine | None = None
+        self.cycles = 0.0
+        self._counts = np.zeros(BINS)
+        self._phases = np.zeros(BINS)
+        self._sums = {name: np.zeros(BINS) for name in self._channels}
+        self._zero: float | None = (
+            None  # of the present stretch: tick at which its setpoint is at its top
+        )
+
+    def take(self, chunk: Columns) -> None:
+        """The next ticks of the run."""
+        for part in self._walk.take(chunk):
+            if self._wanted(part):
+                self._gather(part)
+
+    def at(self, phases: Floats) -> dict[str, Floats] | None:
+        """(n,) each channel at phases, in cycles from the setpoint's top; None where there is no cycle."""
+        there = self._counts > 0
+        if np.count_nonzero(there) < LEAST_BINS:
+            return None
+        counts = self._counts[there]
+        x = self._phases[there] / counts
+        return {name: _around(x, sums[there] / counts, phases) for name, sums in self._sums.items()}
+
+    def _wanted(self, part: Part) -> bool:
+        stretch = part.stretch
+        if part.begins:
+            self._zero = None
+        if stretch.sine is None or self.block not in (None, stretch.block):
+            return False
+        if self.sine is None:
+            self.sine, self.block = stretch.sine, stretch.block
+        return stretch.sine == self.sine
+
+    def _gather(self, part: Part) -> None:
+        assert self.sine is not None
+        per_tick = self.sine.frequency_hz * self._period_s
+        there = part.in_phase
+        ticks = part.columns["tick"][there]
+        if self._zero is None:
+            self._zero = _top(ticks, part.columns["force_command_n"][there], per_tick)
+        if self._zero is None:
+            return
+        phases = ((ticks - self._zero) * per_tick) % 1.0
+        bins = np.minimum((phases * BINS).astype(np.int64), BINS - 1)
+        self._counts += np.bincount(bins, minlength=BINS)
+        self._phases += np.bincount(bins, phases, minlength=BINS)
+        for name, sums in self._sums.items():
+            sums += np.bincount(bins, part.columns[name][there], minlength=BINS)
+        self.cycles += len(ticks) * per_tick
+
+
+def _top(ticks: npt.NDArray[Any], command: npt.NDArray[Any], per_tick: float) -> float | None:
+    """A tick, perhaps between two, at which the setpoint is at its top; None of less than a cycle."""
+    if (len(ticks) + 0.5) * per_tick < 1:
+        return None
+    ticks, command = ticks[:MOST_FITTED], command[:MOST_FITTED]
+    angles = 2 * np.pi * ((ticks - ticks[0]) * per_tick)
+    parts = np.column_stack([np.cos(angles), np.sin(angles), np.ones(len(angles))])
+    cosine, sine, _ = np.linalg.lstsq(parts, np.asarray(command, np.float64), rcond=None)[0]
+    return float(ticks[0] + np.arctan2(sine, cosine) / (2 * np.pi * per_tick))
+
+
+def _around(x: Floats, y: Floats, phases: Floats) -> Floats:
+    """A smooth periodic curve through (m,) values at ascending phases below 1."""
+    curve = CubicSpline(np.append(x, x[0] + 1), np.append(y, y[0]), bc_type="periodic")
+    return np.asarray(curve(x[0] + (phases - x[0]) % 1.0))

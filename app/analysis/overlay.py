@@ -1,0 +1,137 @@
+"""Runs laid over each other tick by tick: least and greatest in bins, and where they differ.
+
+Everything is taken tick against tick and only then put into bins, so that no peak and no difference is lost
+however many ticks a bin has; where there are few ticks, each is a bin of its own.
+"""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+Floats = npt.NDArray[np.float64]
+MOST_INTERVALS = 200  # that are told; all are counted
+
+
+class Tolerance(NamedTuple):
+    """What a difference may be: the larger of an absolute one and a share of the baseline's value."""
+
+    absolute: float
+    relative: float = 0.0
+
+    def around(self, baseline: Floats) -> Floats:
+        """(n,) the tolerance at each value of the baseline."""
+        return np.maximum(self.absolute, self.relative * np.abs(baseline))
+
+
+class Interval(NamedTuple):
+    """Where a difference exceeds its tolerance, both ends in it, and the largest difference there."""
+
+    first: int
+    last: int
+    peak: float
+
+
+class Band:
+    """Least and greatest of a signal in bins of equal width, filled piece by piece in order."""
+
+    def __init__(self, bins: int, width: int) -> None:
+        self._width = width
+        self.low = np.full(bins, np.nan)
+        self.high = np.full(bins, np.nan)
+
+    def take(self, first: int, values: Floats) -> None:
+        """(n,) values from the place `first` on, which begins a bin; NaN where there is none."""
+        begins = np.arange(0, len(values), self._width)
+        at = first // self._width + np.arange(len(begins))
+        self.low[at] = np.fmin(self.low[at], np.fmin.reduceat(values, begins))
+        self.high[at] = np.fmax(self.high[at], np.fmax.reduceat(values, begins))
+
+
+class Exceeding:
+    """Gathers where something is exceeded; interruptions up to `joined` places do not part an interval."""
+
+    def __init__(self, joined: int = 0) -> None:
+        self._joined = joined
+        self._open: Interval | None = None
+        self.intervals: list[Interval] = []
+        self.count = 0  # of intervals
+        self.places = 0  # that exceed
+
+    def take(self, first: int, exceeds: npt.NDArray[np.bool_], by: Floats) -> None:
+        """(n,) whether each place from `first` on exceeds, and its difference."""
+        self.places += int(np.count_nonzero(exceeds))
+        edges = np.flatnonzero(np.diff(exceeds.astype(np.int8), prepend=0, append=0))
+        for low, high in edges.reshape(-1, 2).tolist():
+            part = by[low:high]
+            peak = float(part[np.argmax(np.abs(part))])
+            self._add(Interval(first + low, first + high - 1, peak))
+
+    def close(self) -> None:
+        """Nothing comes after."""
+        last, self._open = self._open, None
+        if last is not None:
+            self.count += 1
+            if len(self.intervals) < MOST_INTERVALS:
+                self.intervals.append(last)
+
+    def _add(self, fresh: Interval) -> None:
+        now = self._open
+        if now is None or fresh.first - now.last - 1 > self._joined:
+            self.close()
+            self._open = fresh
+            return
+        peak = max(now.peak, fresh.peak, key=abs)
+        self._open = Interval(now.first, fresh.last, peak)
+
+
+class Difference:
+    """A run less the baseline, of one channel, piece by piece."""
+
+    def __init__(self, bins: int, width: int, tolerance: Tolerance | None) -> None:
+        self.band = Band(bins, width)
+        self.tolerances = np.full(bins, np.nan)  # the least in each bin
+        self.exceeding = Exceeding(joined=width)
+        self.count = 0  # of places that both have
+        self.peak, self.peak_at = 0.0, 0
+        self._tolerance = tolerance
+        self._limits = Band(bins, width)
+        self._squares = 0.0
+
+    def take(self, first: int, baseline: Floats, values: Floats) -> None:
+        """(n,) of both from the place `first` on; NaN where there is none."""
+        apart = values - baseline
+        there = np.isfinite(apart)
+        self.band.take(first, apart)
+        found = np.where(there, apart, 0.0)
+        self.count += int(np.count_nonzero(there))
+        self._squares += float(np.dot(found, found))
+        at = int(np.argmax(np.abs(found))) if len(found) else 0
+        if len(found) and abs(found[at]) > abs(self.peak):
+            self.peak, self.peak_at = float(found[at]), first + at
+        if self._tolerance is not None:
+            limits = self._tolerance.around(baseline)
+            self._limits.take(first, limits)
+            self.exceeding.take(first, np.abs(found) > np.where(there, limits, np.inf), found)
+
+    def close(self) -> None:
+        """Nothing comes after."""
+        self.exceeding.close()
+        self.tolerances = self._limits.low
+
+    @property
+    def rms(self) -> float | None:
+        """None where there is no place that both have."""
+        return math.sqrt(self._squares / self.count) if self.count else None
+
+
+def bin_width(places: int, points: int) -> int:
+    """Places a bin, so that no more than `points` bins hold them all."""
+    return max(1, -(-places // max(1, points)))
+
+
+def put(values: Floats, places: npt.NDArray[Any], fresh: npt.NDArray[Any]) -> None:
+    """Put (m,) fresh values into (n,) at their places, those outside left out."""
+    inside = (places >= 0) & (places < len(values))
+    values[places[inside]] = fresh[inside]

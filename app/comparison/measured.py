@@ -1,0 +1,45 @@
+"""The measurements of runs side by side."""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from app.analysis.measurements import MEASUREMENTS
+from app.comparison.schemas import MeasurementRow, ValueOut
+from app.runs.verdicts import WHOLE_RUN
+
+
+class Measured(NamedTuple):
+    """What was measured of a run, by block (−1 is the run as a whole) and name."""
+
+    run_id: int
+    values: Mapping[tuple[int, str], float | None]
+
+
+def measurement_rows(runs: Sequence[Measured], tolerance: float | None) -> list[MeasurementRow]:
+    """Whatever one of the runs has, the whole run's first."""
+    keys = dict.fromkeys(key for run in runs for key in run.values)
+    blocks = sorted({block for block, _ in keys})
+    ordered = [(b, name) for b in blocks for name in MEASUREMENTS if (b, name) in keys]
+    return [
+        MeasurementRow(
+            block=None if block == WHOLE_RUN else block,
+            name=name,
+            unit=MEASUREMENTS[name].unit,
+            values=_values(runs, (block, name), tolerance),
+        )
+        for block, name in ordered
+    ]
+
+
+def _values(
+    runs: Sequence[Measured], key: tuple[int, str], tolerance: float | None
+) -> list[ValueOut]:
+    values = [run.values.get(key) for run in runs]
+    baseline, told = values[0], []
+    for run, value in zip(runs, values, strict=True):
+        difference = None if value is None or baseline is None else value - baseline
+        within = None
+        if difference is not None and baseline is not None and tolerance is not None:
+            within = abs(difference) <= tolerance * abs(baseline)
+        told.append(ValueOut(run_id=run.run_id, value=value, difference=difference, within=within))
+    return told
