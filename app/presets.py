@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TypeVar
 
@@ -14,6 +15,8 @@ from app.interlocks.defaults import default_interlocks
 from app.interlocks.record import load_interlocks
 from app.interlocks.safeguards import adoptable
 from app.interlocks.table import Interlocks
+from app.rig_configuration.configuration import RigConfiguration
+from app.rig_configuration.record import load_configuration
 from app.settings import Settings
 from rtcore.rig.parameters import RigParameters, load_rig
 
@@ -27,7 +30,7 @@ class Presets:
     controller: ControllerSettings
     interlocks: Interlocks
     rig: RigParameters
-    interlocks_file: Path | None = None  # that they are of; None: as shipped
+    configuration: RigConfiguration
 
 
 def load_presets(settings: Settings) -> Presets | Refusal:
@@ -40,7 +43,11 @@ def load_presets(settings: Settings) -> Presets | Refusal:
         return interlocks
     try:
         rig = load_rig(settings.rig_file)
-        return Presets(controller, interlocks, rig, settings.interlocks_file)
+        of_rig = partial(RigConfiguration, model=rig)
+        configuration = _from(settings.rig_configuration_file, load_configuration, of_rig)
+        if isinstance(configuration, Refusal):
+            return configuration
+        return Presets(controller, interlocks, rig, configuration)
     except (OSError, ValueError, yaml.YAMLError) as error:
         return Refusal(Code.INVALID_REQUEST, f"{settings.rig_file}: {' '.join(str(error).split())}")
 

@@ -24,7 +24,10 @@ class Settings(BaseSettings):
     tls_key: Path | None = None
     plain_http: bool = False  # without TLS, even where other machines reach it
     allowed_hosts: tuple[str, ...] = ()  # names besides localhost under which browsers come
-    rig_file: Path | None = None  # None: the rig of the paper
+    rig_file: Path | None = None  # of the simulated rig; None: the rig of the paper
+    rig_configuration_file: Path | None = (
+        None  # what is known of the rig; None: the newest revision
+    )
     controller_file: Path | None = None  # None: as shipped, as for the interlocks
     interlocks_file: Path | None = None
     report_logo: Path | None = None  # SVG, PNG or JPEG, on the first page of reports

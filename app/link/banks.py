@@ -14,6 +14,7 @@ from rtcore.program.stream import Program, ProgramWriter
 _BANKS = {
     Opcode.ADOPT_GAINS: ("gains", "active_gains"),
     Opcode.ADOPT_INTERLOCKS: ("interlocks", "active_interlocks"),
+    Opcode.ADOPT_MODEL: ("models", "active_model"),
 }
 _filling = Lock()
 

@@ -108,6 +108,14 @@ class Life:
         table = self.block.fields["interlocks"][int(self.block.fields["active_interlocks"])]
         return np.array(table["detectors"][: int(table["count"])])
 
+    def gains(self) -> Any:
+        """The gains in force, () of `GAINS`."""
+        return self.block.fields["gains"][int(self.block.fields["active_gains"])].copy()
+
+    def model(self) -> Any:
+        """The model of the rig that the twin is of, () of `MODEL`; zeros until one is adopted."""
+        return self.block.fields["models"][int(self.block.fields["active_model"])].copy()
+
     def next_tick(self) -> int:
         """The tick that is published next, or later."""
         reader = self.telemetry()

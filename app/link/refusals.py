@@ -30,6 +30,7 @@ _NOT_TO_BE_TARED = (
 _SPOKEN = {
     Opcode.ADOPT_GAINS: "take over the gains",
     Opcode.ADOPT_INTERLOCKS: "take over the interlocks",
+    Opcode.ADOPT_MODEL: "take over the model of the rig",
     Opcode.ADOPT_PROGRAM: "load the test",
     Opcode.SHUTDOWN: "shut down",
     Opcode.TAKE_LEASE: "give you command",

@@ -30,6 +30,15 @@ class _Ended(Exception):
     """The console ends: there is nobody to predict for."""
 
 
+@dataclass(frozen=True)
+class _InForce:
+    """What it predicts with: replaced whole, so that no prediction is made with half of each."""
+
+    controller: ControllerSettings
+    interlocks: Interlocks
+    rig: RigParameters
+
+
 @dataclass
 class _Job:
     future: "Future[Predicted]" = field(default_factory=Future)
@@ -54,9 +63,7 @@ class Predictions:
         rig: RigParameters,
         predictor: Predictor = predict,
     ) -> None:
-        self._rig = rig
-        self._controller = controller
-        self._interlocks = interlocks
+        self._in_force = _InForce(controller, interlocks, rig)
         self._predict = predictor
         # At the priority of the console's other threads: one that is put off by other work while it
         # holds the interpreter's lock puts off the heartbeat too.
@@ -67,16 +74,26 @@ class Predictions:
         self._lock = threading.Lock()
         self._ending = threading.Event()
 
-    def turn_to(self, interlocks: Interlocks) -> None:
-        """Predict with this table from now on."""
-        self._interlocks = interlocks
+    def turn_to(
+        self,
+        *,
+        controller: ControllerSettings | None = None,
+        interlocks: Interlocks | None = None,
+        rig: RigParameters | None = None,
+    ) -> None:
+        """Predict with these from now on; what is left out stays."""
+        now = self._in_force
+        self._in_force = _InForce(
+            controller or now.controller, interlocks or now.interlocks, rig or now.rig
+        )
 
     def stands(self, definition: Definition, predicted: Predicted) -> bool:
         """Whether a prediction was made with what is in force now."""
         return predicted.prediction.key == key_of(self._setup(definition))
 
     def _setup(self, definition: Definition) -> Setup:
-        return Setup(definition, self._rig, self._controller, self._interlocks)
+        now = self._in_force
+        return Setup(definition, now.rig, now.controller, now.interlocks)
 
     def of(
         self, definition: Definition, wait_s: float, *, draft: bool = False

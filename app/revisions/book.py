@@ -91,12 +91,12 @@ class RevisionBook(Generic[D]):
             return self._store(session, number, preset.document, (CONSOLE, why), before)
         if isinstance(newest, Revision):
             return newest
-        why = "As shipped"
+        why = preset.why
         if newest is not None:
             told = (number - 1, self._kind.name, newest.detail)
             _log.error("revision %d of the %s cannot be read: %s", *told)
-            why = f"As shipped: revision {number - 1} cannot be read any more"
-        return self._store(session, number, self._kind.shipped(), (CONSOLE, why), None)
+            why = f"{preset.why}: revision {number - 1} cannot be read any more"
+        return self._store(session, number, preset.document, (CONSOLE, why), None)
 
     def change(self, wanted: Wanted[D]) -> Revision[D] | Refusal:
         """Put another document in force. What is refused, or cannot be stored, leaves all as it was."""

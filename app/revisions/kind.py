@@ -63,10 +63,14 @@ class Wanted(Generic[D]):
 
 @dataclass(frozen=True)
 class Preset(Generic[D]):
-    """The document that a console is started with: as shipped, or of a file that is named here."""
+    """The document that a console is started with: as shipped, or of a file that is named here.
+
+    `why` is what the very first revision says of itself where there is no file.
+    """
 
     document: D
     file: str | None = None
+    why: str = "As shipped"
 
 
 class Loop(Protocol[Taken]):

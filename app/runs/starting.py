@@ -12,7 +12,7 @@ from app.authority.service import InCommand
 from app.catalogue.service import Catalogue, StoredTest
 from app.db import Database
 from app.definitions.expansion import expand
-from app.definitions.outline import outline
+from app.definitions.outline import Outline, outline
 from app.errors import Code, Refusal
 from app.link.life import Life
 from app.link.link import Link
@@ -34,7 +34,7 @@ _CATCHING_UP = Refusal(
     Code.BUSY, "Cannot start: the recorder is still reading what happened before; try again"
 )
 _OVERTAKEN = Refusal(
-    Code.BUSY, "Cannot start: the interlocks have changed since the test was predicted; try again"
+    Code.BUSY, "Cannot start: the settings have changed since the test was predicted; try again"
 )
 _UNWRITABLE = Refusal(
     Code.NO_SPACE, "Cannot start: nothing can be written to the disk; see the console's log"
@@ -51,6 +51,7 @@ class Needs:
     in_command: InCommand
     why_not: Callable[[], Refusal | None]
     never_began: Callable[[int], None]
+    beyond_limits: Callable[[Outline], Refusal | None]
 
 
 class Starter:
@@ -109,7 +110,11 @@ class Starter:
     ) -> Run | Refusal:
         life = self._link.life
         plan = outline(stored.definition)
-        refusal = self._needs.why_not() or self._needs.storage.refusal_for(plan.duration_s)
+        refusal = (
+            self._needs.why_not()
+            or self._needs.beyond_limits(plan)
+            or self._needs.storage.refusal_for(plan.duration_s)
+        )
         if refusal is not None or life is None:
             return refusal or Refusal(Code.LOOP_LOST, "Cannot start: the loop process does not run")
         if self._recorder.following is not life:

@@ -1,5 +1,8 @@
 """The configuration of the rig, revision by revision."""
 
+import sqlalchemy as sa
+from alembic import op
+
 revision = "0009"
 down_revision = "0008"
 branch_labels = None
@@ -7,8 +10,15 @@ depends_on = None
 
 
 def upgrade() -> None:
-    """Nothing yet."""
+    op.create_table(
+        "rig_configuration_revisions",
+        sa.Column("number", sa.Integer, primary_key=True, autoincrement=False),
+        sa.Column("document", sa.JSON, nullable=False),
+        sa.Column("author", sa.String(100), nullable=False),
+        sa.Column("why", sa.String(500), nullable=False),
+        sa.Column("created_at", sa.DateTime, nullable=False),
+    )
 
 
 def downgrade() -> None:
-    """Nothing yet."""
+    op.drop_table("rig_configuration_revisions")

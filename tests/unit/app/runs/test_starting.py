@@ -60,7 +60,15 @@ class Lab:
             stands=lambda definition, predicted: self.stands,
             refusal_for=lambda duration_s: None,
         )
-        needs = Needs(fakes, fakes, fakes, self._in_command, lambda: None, self.given_up.append)
+        needs = Needs(
+            fakes,
+            fakes,
+            fakes,
+            self._in_command,
+            lambda: None,
+            self.given_up.append,
+            lambda plan: None,
+        )
         book: Any = SimpleNamespace(reading=self.database.reading, writing=self._writing)
         frozen = Frozen(controller={}, interlocks={}, rig={})
         self.starter = Starter(book, folder, link, recorder, lambda: frozen, Plans(), needs)
@@ -151,5 +159,5 @@ def test_what_was_predicted_under_other_interlocks_is_not_started(lab: Lab) -> N
     refusal = lab.start()
     assert isinstance(refusal, Refusal)
     assert refusal.code is Code.BUSY
-    assert "interlocks have changed" in refusal.detail
+    assert "settings have changed" in refusal.detail
     assert lab.open_runs() == []

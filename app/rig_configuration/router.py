@@ -1,0 +1,90 @@
+"""`/api/v1/rig-configuration`: the gains and the compensator in force, those before them, and changing them."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query
+
+from app.access.dependencies import Engineer, Viewer
+from app.dependencies import AuthorityService, RigConfigurationService
+from app.problems import PROBLEMS, granted
+from app.revisions.difference import difference
+from app.revisions.kind import Wanted
+from app.revisions.schemas import Difference, DocumentChange, Number, Reason, RevisionSummary
+from app.rig_configuration import shown
+from app.rig_configuration.record import configuration_from
+from app.rig_configuration.schemas import RigConfigurationOut, RigConfigurationRevisionOut
+
+router = APIRouter(
+    prefix="/api/v1/rig-configuration", tags=["rig configuration"], responses=PROBLEMS
+)
+
+
+@router.get("", operation_id="getRigConfiguration")
+def get_configuration(who: Viewer, configurations: RigConfigurationService) -> RigConfigurationOut:
+    """The settings in force, by whom, when and why, and whether the loop has them."""
+    return shown.in_force(configurations.in_force, in_loop=configurations.loop_has_it())
+
+
+@router.put("", operation_id="changeRigConfiguration")
+def change_configuration(
+    who: Engineer,
+    body: DocumentChange,
+    configurations: RigConfigurationService,
+    authority: AuthorityService,
+) -> RigConfigurationOut:
+    """Put other settings in force, whole or not at all; refused while a test runs."""
+    document = granted(configuration_from(body.document, "body"))
+    epoch = granted(authority.check(who, body.lease))
+    wanted = Wanted(document, body.why, body.based_on, who.name, epoch)
+    made = granted(configurations.change(wanted))
+    return shown.in_force(made, in_loop=configurations.loop_has_it())
+
+
+@router.get("/revisions", operation_id="listRigConfigurationRevisions")
+def list_revisions(
+    who: Viewer,
+    configurations: RigConfigurationService,
+    before: Annotated[
+        Number | None, Query(description="the last number of the page before")
+    ] = None,
+    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
+) -> list[RevisionSummary]:
+    """The revisions, the newest first."""
+    rows = configurations.revisions(before, limit)
+    return [RevisionSummary.model_validate(row, from_attributes=True) for row in rows]
+
+
+@router.get("/revisions/{number}", operation_id="getRigConfigurationRevision")
+def get_revision(
+    who: Viewer, number: Number, configurations: RigConfigurationService
+) -> RigConfigurationRevisionOut:
+    """The settings as they were in force once; 0 are those as shipped."""
+    return shown.revision(granted(configurations.revision(number)))
+
+
+@router.post("/revisions/{number}/restore", operation_id="restoreRigConfigurationRevision")
+def restore_revision(
+    who: Engineer,
+    number: Number,
+    body: Reason,
+    configurations: RigConfigurationService,
+    authority: AuthorityService,
+) -> RigConfigurationOut:
+    """Put an earlier revision in force again, as a new one."""
+    old = granted(configurations.revision(number))
+    epoch = granted(authority.check(who, body.lease))
+    wanted = Wanted(old.document, body.why, body.based_on, who.name, epoch)
+    made = granted(configurations.change(wanted))
+    return shown.in_force(made, in_loop=configurations.loop_has_it())
+
+
+@router.get("/difference", operation_id="getRigConfigurationDifference")
+def get_difference(
+    who: Viewer,
+    configurations: RigConfigurationService,
+    from_: Annotated[Number, Query(alias="from")],
+    to: Number,
+) -> Difference:
+    """What two revisions differ in, value by value."""
+    before, after = (granted(configurations.revision(number)) for number in (from_, to))
+    return difference(before.document, after.document, (before.number, after.number))
