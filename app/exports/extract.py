@@ -59,13 +59,14 @@ class Extract:
 
     def rows(self) -> int:
         """How many ticks were recorded in it, counted in the file."""
-        samples = ParquetSamples(self.path)
+        samples = ParquetSamples(self.path, mapped=False)
         return sum(len(c["tick"]) for c in samples.chunks((), self.first_tick, self.last_tick))
 
     def chunks(self, progress: Progress, names: Sequence[str] | None = None) -> Iterator[Columns]:
         """The columns, a row group at a time, with `tick` whether it is exported or not."""
         wanted = self.names if names is None else names
-        for chunk in ParquetSamples(self.path).chunks(wanted, self.first_tick, self.last_tick):
+        samples = ParquetSamples(self.path, mapped=False)
+        for chunk in samples.chunks(wanted, self.first_tick, self.last_tick):
             if len(chunk["tick"]):
                 yield chunk
                 progress((int(chunk["tick"][-1]) - self.first_tick + 1) / self.ticks)

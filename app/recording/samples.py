@@ -52,10 +52,15 @@ class _File:
 
 
 class ParquetSamples:
-    """Of a run that is over: reads only the row groups and columns that are asked for."""
+    """Of a run that is over: reads only the row groups and columns that are asked for.
 
-    def __init__(self, path: Path) -> None:
+    `mapped` is quickest for windows; of who goes through all of it, every page that was read would count
+    as this program's memory.
+    """
+
+    def __init__(self, path: Path, *, mapped: bool = True) -> None:
         self._path = path
+        self._mapped = mapped
         self._known = _files.get(path)
         self.first_tick = self._known.extent.first_tick
         self.last_tick = self._known.extent.last_tick
@@ -68,7 +73,7 @@ class ParquetSamples:
         end = int(np.searchsorted(known.first, last_tick, side="right"))
         if start >= end:
             return
-        with pq.ParquetFile(self._path, metadata=known.metadata, memory_map=True) as file:
+        with pq.ParquetFile(self._path, metadata=known.metadata, memory_map=self._mapped) as file:
             for i in range(start, end):
                 with_ticks = wanted if known.gapless[i] and wanted else ["tick", *wanted]
                 table = file.read_row_group(i, with_ticks, use_threads=False)
