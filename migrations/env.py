@@ -5,9 +5,12 @@ from alembic import context
 import app.access.models
 import app.audit.models
 import app.catalogue.models
+import app.controller.models
 import app.drills.models
 import app.first_outs.models
+import app.identification.models
 import app.interlocks.models
+import app.rig_configuration.models
 import app.runs.models
 import app.storage.models  # noqa: F401
 from app.db import Base
