@@ -33,6 +33,7 @@ from app.first_outs.reruns import Reruns
 from app.first_outs.run_tests import TestsOfRuns
 from app.first_outs.service import FirstOuts
 from app.histories.store import Store
+from app.identification.service import Identifications
 from app.interlocks.live import LiveTable
 from app.interlocks.loop_table import LoopTable
 from app.interlocks.record import to_record as interlocks_record
@@ -134,7 +135,8 @@ class Console:
         )
         self.run_predictions = RunPredictions(self.database, settings.runs_dir)
         look = (settings.report_logo, settings.report_template)
-        sources = Sources(settings.database_address, settings.runs_dir, *look)
+        places = settings.runs_dir, settings.histories_dir
+        sources = Sources(settings.database_address, *places, *look)
         self.reports = Reports(self.database, sources)
         self.analyses = Analyses(self.database, settings.runs_dir, self.histories)
         self.comparisons = Comparisons(self.database, settings.runs_dir, self.histories)
@@ -169,6 +171,9 @@ class Console:
             *(RIG_CONFIGURATION, kept_in, LoopModel(self.link)),
             *(_preset(presets.configuration, settings.rig_configuration_file), starting),
             lambda configuration: self.predictions.turn_to(rig=configuration.model),
+        )
+        self.identifications = Identifications(
+            *(self.database, settings.runs_dir, self.rig_configurations, self.authority.check)
         )
         self.drills = Drills(
             *(self.database, settings.drills_dir, self.link, self.authority.check),
@@ -226,6 +231,7 @@ class Console:
         self._live_responses.start()
         self._keeper.start()
         self.drills.open()
+        self.identifications.open()
         self.predictions.warm_up()
         self.storage.retention.finish_removing()
         self.exports.open()
@@ -236,6 +242,7 @@ class Console:
         self.predictions.close()
         self._reruns.close()
         self.analyses.close()
+        self.identifications.close()
         self.comparisons.close()
         self.exports.close()
         self.reports.close()

@@ -10,11 +10,14 @@ from app.reports.sections.blocks import blocks
 from app.reports.sections.data import data
 from app.reports.sections.events import events
 from app.reports.sections.front import about, verdict_of
+from app.reports.sections.layers import layers
 from app.reports.sections.margins import margins
 from app.reports.sections.realtime import realtime
+from app.reports.sections.response import response
 from app.reports.sections.results import results
 from app.reports.sections.settings import settings
 from app.reports.sections.time import overview, time
+from app.reports.sections.uncertainty import uncertainty
 from app.reports.subject import Subject
 
 Progress = Callable[[float], None]
@@ -30,7 +33,10 @@ SECTIONS: tuple[_Entry, ...] = (
     _Entry(overview, brief=True, full=False),
     _Entry(results, brief=False),
     _Entry(time, brief=False),
+    _Entry(response, brief=False),
+    _Entry(layers, brief=False),
     _Entry(across, brief=False),
+    _Entry(uncertainty, brief=False),
     _Entry(margins, brief=False),
     _Entry(events, brief=False),
     _Entry(realtime, brief=False),

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from app.db import Database
 from app.errors import Refusal
+from app.histories.store import Store
 from app.jobs.apart import Report as Tell
 from app.recording.whole_file import whole_file
 from app.reports.branding import Branding, branding
@@ -23,7 +24,9 @@ def make(tell: Tell, sources: Sources, order: Order) -> Refusal | None:
         return look
     database = Database(sources.database_url)
     try:
-        subject = subject_of_run(order.run_id, database, sources.runs_dir)
+        subject = subject_of_run(
+            order.run_id, database, sources.runs_dir, Store(sources.histories_dir)
+        )
     finally:
         database.close()
     if isinstance(subject, Refusal):

@@ -9,12 +9,15 @@ import pyarrow.parquet as pq
 from app.analysis.walk import HOLD_FADE_S
 from app.db import Database
 from app.errors import Code, Refusal
+from app.histories.history import Histories
 from app.prediction.schemas import Prediction
 from app.prediction.series_file import NAME as PREDICTED
 from app.recording.files import parquet_path
 from app.recording.samples import Samples, open_samples
+from app.reports.found import Found
 from app.reports.subject import Frozen, Happening, Noted, Subject
 from app.runs import repository
+from app.runs.measuring import read_definition
 from app.runs.models import Run, RunEvent
 from app.runs.no_data import no_data
 from app.runs.predicted import PredictedSamples, passages
@@ -22,7 +25,9 @@ from app.runs.results import Results
 from app.runs.schemas import RunEventOut
 
 
-def subject_of_run(run_id: int, database: Database, runs_dir: Path) -> Subject | Refusal:
+def subject_of_run(
+    run_id: int, database: Database, runs_dir: Path, histories: Histories | None = None
+) -> Subject | Refusal:
     """A run that is over; one under way is refused."""
     measured = Results(database, runs_dir, None).measurements(run_id)
     if isinstance(measured, Refusal):
@@ -36,6 +41,7 @@ def subject_of_run(run_id: int, database: Database, runs_dir: Path) -> Subject |
         events = repository.events(session, run_id)
         folder = runs_dir / str(run_id)
         period_s = run.period_ns * 1e-9
+        samples = open_samples(folder)
         return Subject(
             label=f"Run {run_id}",
             test_id=run.test_id,
@@ -55,7 +61,8 @@ def subject_of_run(run_id: int, database: Database, runs_dir: Path) -> Subject |
             ended_at=run.ended_at,
             first_tick=run.first_tick,
             prediction=Prediction(**run.prediction) if run.prediction else None,
-            samples=open_samples(folder),
+            samples=samples,
+            found=None if samples is None else _found(run, samples, folder, histories),
             predicted=_predicted(folder, run, events),
             data_file=parquet_path(folder),
             without_samples=no_data(run).detail,
@@ -75,6 +82,17 @@ def _frozen(run: Run) -> Frozen:
 def _happening(event: RunEvent, run: Run) -> Happening:
     told = RunEventOut.of(event, run)
     return Happening(told.time_s, told.kind, told.code, told.text, told.value, told.limit)
+
+
+def _found(run: Run, samples: Samples, folder: Path, histories: Histories | None) -> Found | None:
+    """None where its definition is of a version that cannot be read any more."""
+    try:
+        definition = read_definition(run.definition, histories)
+    except ValueError:
+        return None
+    first_tick = samples.first_tick if run.first_tick is None else run.first_tick
+    period_s = run.period_ns * 1e-9
+    return Found(definition, run.rig, run.controller, samples, period_s, first_tick, folder)
 
 
 def _predicted(folder: Path, run: Run, events: Sequence[RunEvent]) -> Samples | None:

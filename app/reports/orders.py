@@ -28,6 +28,7 @@ class Sources:
 
     database_url: str
     runs_dir: Path
+    histories_dir: Path
     logo: Path | None = None
     template: Path | None = None
 

@@ -70,17 +70,15 @@ def give_up_run_report(
 
 
 async def _made(reports: Reports, wanted: Wanted, response: type[FileResponse]) -> FileResponse:
-    found = granted(await run_in_threadpool(reports.begin, wanted))
+    found = await run_in_threadpool(reports.begin, wanted)
     if isinstance(found, Job):
         with anyio.move_on_after(LONGEST_S):
             while not found.ended.is_set():  # noqa: ASYNC110  # it is set by a thread
                 await anyio.sleep(LOOK_S)
         if not found.ended.is_set():
             raise Refused(reports.too_long(wanted))
-        made = await run_in_threadpool(reports.outcome, wanted, found)
-        ready = granted(made)
-    else:
-        ready = found
+        found = await run_in_threadpool(reports.outcome, wanted, found)
+    ready = granted(found)
     name = f"forcerig-run-{wanted.run_id}.{wanted.format}"
     shown = "inline" if wanted.format is Format.PDF else "attachment"
     kind = response.media_type

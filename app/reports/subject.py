@@ -8,6 +8,7 @@ from typing import Any
 
 from app.prediction.schemas import Prediction
 from app.recording.samples import Samples
+from app.reports.found import Found
 from app.runs.results_schemas import RunMeasurements
 
 Document = Mapping[str, Any]
@@ -77,8 +78,7 @@ class Subject:
     data_file: Path | None = None
     without_samples: str = "It has no samples"  # why, where it has none
     virtual_seed: int | None = None  # of a run on the virtual clock
-    responses: tuple[Any, ...] = ()  # frequency responses (app.runs.responses), a transfer each
-    analysis: Any = None  # of time, cycles and uncertainty (app.runs.analyses)
+    found: Found | None = None  # in its samples, where its definition can be read
 
     @property
     def virtual(self) -> bool:

@@ -1,0 +1,105 @@
+"""What is found in the samples of a run for its report: frequency responses, and what it was like in time.
+
+What the console has found already and keeps in the run's folder is taken from there.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from app.analysis.response.transfers import TRANSFERS
+from app.analysis.time_domain import NEEDED, TimeDomain, TimeReader
+from app.conducting.found import Found as Point
+from app.conducting.responding import NEEDS, Responding, responses_in
+from app.definitions.definition import Definition
+from app.definitions.responses import FrequencyResponse
+from app.definitions.windows import stretches
+from app.recording.samples import Columns, Samples
+from app.runs.response_file import read_points
+from app.runs.response_model import Load, model_curve
+from app.runs.response_schemas import ModelCurve, ResponseOut, ResponseSeries, TransferName
+from app.runs.response_series import bands_of, series_of
+from rtcore.rig.parameters import rig_from
+
+
+@dataclass(frozen=True)
+class Found:
+    """What can be found in the samples of a run that is over; each found once, when it is asked for.
+
+    `rig` and `controller` are those that it was made with, as JSON. `folder` is the run's, where it has one.
+    """
+
+    definition: Definition
+    rig: Mapping[str, Any]
+    controller: Mapping[str, Any]
+    samples: Samples
+    period_s: float
+    first_tick: int
+    folder: Path | None = None
+
+    @cached_property
+    def responses(self) -> tuple[ResponseOut, ...]:
+        """Every transfer of which there are points."""
+        asked = responses_in(self.definition)
+        if not asked:
+            return ()
+        points = None if self.folder is None else read_points(self.folder)
+        if points is None:
+            points = self._points()
+        return tuple(self._response(name, points, asked) for name in _transfers(points))
+
+    @cached_property
+    def in_time(self) -> TimeDomain:
+        """Layers, steps and the error budget, in one pass over the samples."""
+        reader = TimeReader(
+            stretches(self.definition),
+            self.period_s,
+            rig_from(self.rig),
+            first_tick=self.first_tick,
+        )
+        for chunk in self._chunks(NEEDED):
+            reader.take(chunk)
+        return reader.result()
+
+    def _points(self) -> list[Point]:
+        responding = Responding(self.definition, self.period_s, self.first_tick)
+        for chunk in self._chunks(NEEDS):
+            responding.take(chunk)
+        return responding.points()
+
+    def _chunks(self, names: Sequence[str]) -> Iterator[Columns]:
+        samples = self.samples
+        return samples.chunks(names, samples.first_tick, samples.last_tick)
+
+    def _response(
+        self, name: TransferName, points: Sequence[Point], asked: Sequence[FrequencyResponse]
+    ) -> ResponseOut:
+        series = series_of(points, name, asked)
+        is_force = name == "force"
+        return ResponseOut(
+            transfer=name,
+            unit=TRANSFERS[name].unit,
+            available=[],
+            series=series,
+            model=list(self._models(series)) if is_force else [],
+            bands=bands_of(asked) if is_force else [],
+            progress=None,
+        )
+
+    def _models(self, series: Iterable[ResponseSeries]) -> Iterator[ModelCurve]:
+        made_with = {"rig": self.rig, "controller": self.controller}
+        for one in series:
+            if len(one.points) > 1:
+                ends = one.points[0].frequency_hz, one.points[-1].frequency_hz
+                load = Load(one.amplitude_n, one.mean_n, *ends)
+                curve = model_curve(made_with, load, self.period_s)
+                if curve is not None:
+                    yield curve
+
+
+def _transfers(points: Iterable[Point]) -> list[TransferName]:
+    there = {found.point.transfer for found in points}
+    names: tuple[TransferName, ...] = ("force", "plant", "disturbance", "compliance", "position")
+    return [name for name in names if name in there]
