@@ -17,6 +17,7 @@ from app.exports.service import Exports
 from app.first_outs.again import Again
 from app.first_outs.service import FirstOuts
 from app.histories.store import Store
+from app.identification.service import Identifications
 from app.interlocks.live import LiveTable
 from app.interlocks.service import InterlockTables
 from app.metrics.service import Metrics
@@ -154,6 +155,10 @@ def _rig_configurations(this: ThisConsole) -> RigConfigurations:
     return this.rig_configurations
 
 
+def _identifications(this: ThisConsole) -> Identifications:
+    return this.identifications
+
+
 def _live_interlocks(this: ThisConsole) -> LiveTable:
     return this.live_interlocks
 
@@ -193,6 +198,7 @@ RunPredictionsService = Annotated[RunPredictions, Depends(_run_predictions)]
 InterlocksService = Annotated[InterlockTables, Depends(_interlocks)]
 ControllerService = Annotated[ControllerSettingsBook, Depends(_controllers)]
 RigConfigurationService = Annotated[RigConfigurations, Depends(_rig_configurations)]
+IdentificationsService = Annotated[Identifications, Depends(_identifications)]
 LiveInterlocksTable = Annotated[LiveTable, Depends(_live_interlocks)]
 StarterService = Annotated[Starter, Depends(_starter)]
 ReportsService = Annotated[Reports, Depends(_reports)]

@@ -18,6 +18,7 @@ from app.first_outs.again_router import router as first_outs_again_router
 from app.first_outs.router import router as first_outs_router
 from app.health import router as health_router
 from app.histories.router import router as histories_router
+from app.identification.router import router as identification_router
 from app.interlocks.router import router as interlocks_router
 from app.live.router import router as live_router
 from app.metrics.router import router as metrics_router
@@ -62,6 +63,7 @@ ROUTERS: tuple[APIRouter, ...] = (
     interlocks_router,
     controller_router,
     rig_configuration_router,
+    identification_router,
     live_router,
     scene_router,
     auth_router,

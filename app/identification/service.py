@@ -1,6 +1,6 @@
 """Identifications: starting one, looking at them, giving up, and putting a fitted model in force."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 from threading import Event, Lock
@@ -45,7 +45,7 @@ class Identifications:
         self,
         database: Database,
         runs_dir: Path,
-        configurations: Callable[[], RigConfigurations],
+        configurations: RigConfigurations,
         in_command: InCommand,
     ) -> None:
         self._database = database
@@ -66,7 +66,7 @@ class Identifications:
 
     def parameters(self) -> list[FittableParameter]:
         """All that can be fitted, as they are in the model in force."""
-        model = self._configurations().in_force.document.model
+        model = self._configurations.in_force.document.model
         return [
             FittableParameter(
                 path=p.path, title=p.title, unit=p.unit, group=p.group, value=read(model, p.path)
@@ -81,7 +81,7 @@ class Identifications:
             return period_s
         if len(self._queue) >= MOST_WAITING:
             return _BUSY
-        configuration = self._configurations().in_force
+        configuration = self._configurations.in_force
         fit = Fit.model_validate(asked.model_dump(exclude={"run_ids"}))
         row = Identification(
             state=State.WAITING,
@@ -133,8 +133,7 @@ class Identifications:
         row = self._book.get(number)
         if isinstance(row, Refusal):
             return row
-        configurations = self._configurations()
-        now = configurations.in_force
+        now = self._configurations.in_force
         model = _adoptable(row, now.document.model)
         if isinstance(model, Refusal):
             return model
@@ -142,7 +141,7 @@ class Identifications:
         if isinstance(lease, Refusal):
             return lease
         document = now.document.model_copy(update={"model": model})
-        made = configurations.change(Wanted(document, asked.why, now.number, who.name, lease))
+        made = self._configurations.change(Wanted(document, asked.why, now.number, who.name, lease))
         if isinstance(made, Refusal):
             return made
         self._book.adopted(number, made.number, asked.why)
