@@ -53,12 +53,22 @@ class MeanCycle:
 
     def at(self, phases: Floats) -> dict[str, Floats] | None:
         """(n,) each channel at phases, in cycles from the setpoint's top; None where there is no cycle."""
-        there = self._counts > 0
-        if np.count_nonzero(there) < LEAST_BINS:
+        counts, turned = self._counts, self._phases
+        there = np.flatnonzero(counts > 0)
+        if len(there) < LEAST_BINS:
             return None
-        counts = self._counts[there]
-        x = self._phases[there] / counts
-        return {name: _around(x, sums[there] / counts, phases) for name, sums in self._sums.items()}
+        starts = _apart(turned[there] / counts[there])
+        if len(starts) < LEAST_BINS:
+            return None
+
+        def gathered(values: Floats) -> Floats:
+            return np.add.reduceat(values[there], starts)
+
+        weights = gathered(counts)
+        x = gathered(turned) / weights
+        return {
+            name: _around(x, gathered(sums) / weights, phases) for name, sums in self._sums.items()
+        }
 
     def _wanted(self, part: Part) -> bool:
         stretch = part.stretch
@@ -80,7 +90,8 @@ class MeanCycle:
         if self._zero is None:
             return
         phases = ((ticks - self._zero) * per_tick) % 1.0
-        bins = np.minimum((phases * BINS).astype(np.int64), BINS - 1)
+        phases -= phases > 1 - 0.5 / BINS  # the last half bin is the first half of the first
+        bins = np.minimum(np.floor(phases * BINS + 0.5).astype(np.int64), BINS - 1)
         self._counts += np.bincount(bins, minlength=BINS)
         self._phases += np.bincount(bins, phases, minlength=BINS)
         for name, sums in self._sums.items():
@@ -97,6 +108,14 @@ def _top(ticks: npt.NDArray[Any], command: npt.NDArray[Any], per_tick: float) ->
     parts = np.column_stack([np.cos(angles), np.sin(angles), np.ones(len(angles))])
     cosine, sine, _ = np.linalg.lstsq(parts, np.asarray(command, np.float64), rcond=None)[0]
     return float(ticks[0] + np.arctan2(sine, cosine) / (2 * np.pi * per_tick))
+
+
+def _apart(x: Floats) -> npt.NDArray[np.int64]:
+    """Where, in ascending phases, another one begins: those less than half a bin apart are one.
+
+    Samples at the same phase of each cycle lie in two bins where rounding puts them on either side.
+    """
+    return np.flatnonzero(np.diff(x, prepend=-1.0) > 0.5 / BINS)
 
 
 def _around(x: Floats, y: Floats, phases: Floats) -> Floats:
