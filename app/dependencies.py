@@ -11,6 +11,7 @@ from app.authority.service import Authority
 from app.catalogue.exchange import Library
 from app.catalogue.service import Catalogue
 from app.comparison.service import Comparisons
+from app.controller.previews import Previews
 from app.controller.service import ControllerSettingsBook
 from app.drills.service import Drills
 from app.exports.service import Exports
@@ -151,6 +152,10 @@ def _controllers(this: ThisConsole) -> ControllerSettingsBook:
     return this.controllers
 
 
+def _previews(this: ThisConsole) -> Previews:
+    return this.previews
+
+
 def _rig_configurations(this: ThisConsole) -> RigConfigurations:
     return this.rig_configurations
 
@@ -197,6 +202,7 @@ PredictionsService = Annotated[Predictions, Depends(_predictions)]
 RunPredictionsService = Annotated[RunPredictions, Depends(_run_predictions)]
 InterlocksService = Annotated[InterlockTables, Depends(_interlocks)]
 ControllerService = Annotated[ControllerSettingsBook, Depends(_controllers)]
+PreviewsService = Annotated[Previews, Depends(_previews)]
 RigConfigurationService = Annotated[RigConfigurations, Depends(_rig_configurations)]
 IdentificationsService = Annotated[Identifications, Depends(_identifications)]
 LiveInterlocksTable = Annotated[LiveTable, Depends(_live_interlocks)]

@@ -11,6 +11,7 @@ from app.authority.router import router as lease_router
 from app.catalogue.router import router as tests_router
 from app.catalogue.texts_router import router as texts_router
 from app.comparison.router import router as comparison_router
+from app.controller.preview_router import router as controller_preview_router
 from app.controller.router import router as controller_router
 from app.drills.router import router as drills_router
 from app.exports.router import router as exports_router
@@ -33,6 +34,7 @@ from app.runs.results_router import router as results_router
 from app.runs.router import router as runs_router
 from app.runs.samples_router import router as samples_router
 from app.scene.router import router as scene_router
+from app.sheets.router import router as sheets_router
 from app.storage.router import router as storage_router
 from app.system.router import router as system_router
 
@@ -62,6 +64,8 @@ ROUTERS: tuple[APIRouter, ...] = (
     system_router,
     interlocks_router,
     controller_router,
+    controller_preview_router,
+    sheets_router,
     rig_configuration_router,
     identification_router,
     live_router,

@@ -18,6 +18,7 @@ from app.catalogue.written import Reader
 from app.comparison.service import Comparisons
 from app.conducting.live import LiveResponses
 from app.controller.loop_gains import LoopGains
+from app.controller.previews import Previews
 from app.controller.record import to_record as gains_record
 from app.controller.service import CONTROLLER, ControllerSettingsBook
 from app.db import Database
@@ -175,6 +176,9 @@ class Console:
         self.identifications = Identifications(
             *(self.database, settings.runs_dir, self.rig_configurations, self.authority.check)
         )
+        self.previews = Previews(
+            self.catalogue, self.controllers, self.interlocks, self.rig_configurations
+        )
         self.drills = Drills(
             *(self.database, settings.drills_dir, self.link, self.authority.check),
             names=lambda: [d.name for d in self.interlocks.in_force.document.detectors],
@@ -240,6 +244,7 @@ class Console:
     def close(self) -> None:
         """Take the load off, depressurise, end the loop, write down what was recorded."""
         self.predictions.close()
+        self.previews.close()
         self._reruns.close()
         self.analyses.close()
         self.identifications.close()

@@ -4,6 +4,66 @@
  */
 
 export interface paths {
+    "/api/v1/analysis/compensator": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Analyse Compensator
+         * @description Each filter of the compensation, the loop with it and without, and its exact tuning (figure 11).
+         */
+        get: operations["analyseCompensator"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/analysis/linear": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Analyse Linear
+         * @description K_1, K_2, τ, margins, open and closed loop at every amplitude.
+         */
+        get: operations["analyseLinear"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/analysis/static": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Analyse Static
+         * @description Static characteristic and force gain for bypass orifices (figure 5).
+         */
+        get: operations["analyseStatic"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/audit": {
         parameters: {
             query?: never;
@@ -188,6 +248,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/controller/check": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Check Controller
+         * @description What is wrong with a draft, what it would change, and its loop and compensator. Nothing is adopted.
+         */
+        post: operations["checkController"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/controller/difference": {
         parameters: {
             query?: never;
@@ -203,6 +283,50 @@ export interface paths {
         put?: never;
         post?: never;
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/controller/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Preview Controller
+         * @description Try a draft on the virtual rig beside what is in force: ask again for what comes of it.
+         */
+        post: operations["previewController"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/controller/previews/{preview_id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Preview
+         * @description How far a preview is, and what came of it.
+         */
+        get: operations["getControllerPreview"];
+        put?: never;
+        post?: never;
+        /**
+         * Give Up Preview
+         * @description Give a preview up.
+         */
+        delete: operations["giveUpControllerPreview"];
         options?: never;
         head?: never;
         patch?: never;
@@ -541,6 +665,114 @@ export interface paths {
          *     has no times, and resamples where it has.
          */
         post: operations["addHistory"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/identifications": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Identifications
+         * @description The identifications, the newest first, and how far each is.
+         */
+        get: operations["listIdentifications"];
+        put?: never;
+        /**
+         * Start Identification
+         * @description Fit the model in force to runs that are over, in a process of its own.
+         */
+        post: operations["startIdentification"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/identifications/parameters": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * List Parameters
+         * @description Every parameter that can be fitted, with its value in the model in force.
+         */
+        get: operations["listFittableParameters"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/identifications/{number}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Identification
+         * @description One with its fitted values, their intervals and correlation, what remains, and G before and after.
+         */
+        get: operations["getIdentification"];
+        put?: never;
+        post?: never;
+        /**
+         * Remove Identification
+         * @description Forget one that has ended and was not adopted.
+         */
+        delete: operations["removeIdentification"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/identifications/{number}/adopt": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Adopt Identification
+         * @description Put the model in force, what was found in the place of what was: a revision of the rig configuration.
+         */
+        post: operations["adoptIdentification"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/identifications/{number}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Cancel Identification
+         * @description Give one up; one that has ended stays as it is.
+         */
+        post: operations["cancelIdentification"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2233,6 +2465,16 @@ export interface components {
          */
         Action: 0 | 1 | 2 | 3;
         /**
+         * AdoptRequest
+         * @description Why the fitted model comes into force; `lease` is the epoch of one's own.
+         */
+        AdoptRequest: {
+            /** Lease */
+            lease?: number | null;
+            /** Why */
+            why: string;
+        };
+        /**
          * Align
          * @description What of the runs lies on top of each other.
          *
@@ -2289,16 +2531,6 @@ export interface components {
             next: number | null;
         };
         /**
-         * Band
-         * @description Least and greatest value at each time; null where the channel was not a number.
-         */
-        Band: {
-            /** Max */
-            max: (number | null)[];
-            /** Min */
-            min: (number | null)[];
-        };
-        /**
          * BandOut
          * @description A requirement band of the test.
          */
@@ -2315,6 +2547,22 @@ export interface components {
             low_deg: number | null;
             /** To Hz */
             to_hz: number;
+        };
+        /**
+         * BlockMeasured
+         * @description A measurement of a block of the test.
+         */
+        BlockMeasured: {
+            /** Block */
+            block: number;
+            /** Kind */
+            kind: string;
+            /** Name */
+            name: string;
+            /** Unit */
+            unit: string;
+            /** Value */
+            value: number;
         };
         /**
          * BlockMeasurements
@@ -2576,6 +2824,22 @@ export interface components {
             unit: string;
         };
         /**
+         * ChannelResidual
+         * @description What the model leaves of a channel over the chosen windows; `noise` is what the channel has by itself.
+         */
+        ChannelResidual: {
+            /** After Rms */
+            after_rms: number;
+            /** Before Rms */
+            before_rms: number;
+            /** Channel */
+            channel: string;
+            /** Noise */
+            noise: number;
+            /** Unit */
+            unit: string;
+        };
+        /**
          * ClearRequest
          * @description Take all faults back.
          */
@@ -2722,6 +2986,71 @@ export interface components {
             notch_damping: number;
         };
         /**
+         * CompensatorAsked
+         * @description A load of which amplitude and frequency, and where to tune the branch exactly.
+         */
+        CompensatorAsked: {
+            /**
+             * Amplitude N
+             * @default 3000
+             */
+            amplitude_n: number;
+            /**
+             * From Hz
+             * @default 0.1
+             */
+            from_hz: number;
+            /**
+             * Load Hz
+             * @default 40
+             */
+            load_hz: number;
+            /**
+             * Mean N
+             * @default 0
+             */
+            mean_n: number;
+            /**
+             * Points
+             * @default 200
+             */
+            points: number;
+            /**
+             * To Hz
+             * @default 400
+             */
+            to_hz: number;
+            /** Tune Hz */
+            tune_hz?: number | null;
+        };
+        /**
+         * CompensatorSheet
+         * @description The branch part by part (figure 11), the loop with it and without, and what it leaves of a motion.
+         *
+         *     `whole` is the three filters together, `compensation` those with FF_V and FF_A behind them (re 1 s/m);
+         *     `disturbance_db` is the force that a motion makes, with the branch over without it.
+         */
+        CompensatorSheet: {
+            /** Amplitude N */
+            amplitude_n: number;
+            compensation: components["schemas"]["Response"];
+            /** Disturbance Db */
+            disturbance_db: (number | null)[];
+            /** Frequencies Hz */
+            frequencies_hz: (number | null)[];
+            lead: components["schemas"]["Response"];
+            /** Load Hz */
+            load_hz: number;
+            low_pass: components["schemas"]["Response"];
+            /** Mean N */
+            mean_n: number;
+            notch: components["schemas"]["Response"];
+            tuning: components["schemas"]["Tuning"] | null;
+            whole: components["schemas"]["Response"];
+            with_branch: components["schemas"]["LoopBeside"];
+            without_branch: components["schemas"]["LoopBeside"];
+        };
+        /**
          * Computing
          * @description A prediction that is under way; ask again for it.
          */
@@ -2782,6 +3111,19 @@ export interface components {
             unit_error_peak_n: number;
             /** Unit Error Rms N */
             unit_error_rms_n: number;
+        };
+        /**
+         * ControllerCheck
+         * @description Whether a draft could be put in force, and what would be other. Nothing was adopted.
+         */
+        ControllerCheck: {
+            compensator: components["schemas"]["CompensatorSheet"] | null;
+            difference: components["schemas"]["app__revisions__schemas__Difference"] | null;
+            /** Errors */
+            errors: components["schemas"]["FaultOut"][];
+            loop: components["schemas"]["LinearSheet"] | null;
+            /** Valid */
+            valid: boolean;
         };
         /**
          * ControllerOut
@@ -3087,6 +3429,42 @@ export interface components {
             why: string;
         };
         /**
+         * DraftAsked
+         * @description A draft, and for which loads to analyse it; `loop` or `compensator` null leaves that out.
+         */
+        DraftAsked: {
+            /**
+             * @default {
+             *       "amplitude_n": 3000,
+             *       "from_hz": 0.1,
+             *       "load_hz": 40,
+             *       "mean_n": 0,
+             *       "points": 200,
+             *       "to_hz": 400
+             *     }
+             */
+            compensator: components["schemas"]["CompensatorAsked"] | null;
+            /** Document */
+            document: {
+                [key: string]: unknown;
+            };
+            /**
+             * @default {
+             *       "amplitude_n": [
+             *         1000,
+             *         2000,
+             *         5000,
+             *         10000
+             *       ],
+             *       "from_hz": 1,
+             *       "mean_n": 0,
+             *       "points": 200,
+             *       "to_hz": 400
+             *     }
+             */
+            loop: components["schemas"]["LinearAsked"] | null;
+        };
+        /**
          * DrillCatalogue
          * @description All drills, the one that is under way, and the faults that the rig has now with their amounts.
          */
@@ -3225,6 +3603,16 @@ export interface components {
             state: string;
             /** Why */
             why: string | null;
+        };
+        /**
+         * Entangled
+         * @description The parameter that another one can be told from least.
+         */
+        Entangled: {
+            /** Correlation */
+            correlation: number;
+            /** Path */
+            path: string;
         };
         /**
          * ErrorFrame
@@ -3375,6 +3763,16 @@ export interface components {
          * @enum {string}
          */
         Extent: "brief" | "full";
+        /**
+         * Extreme
+         * @description Where a gain is greatest or least.
+         */
+        Extreme: {
+            /** Frequency Hz */
+            frequency_hz: number;
+            /** Gain Db */
+            gain_db: number;
+        };
         /**
          * ExtremesOut
          * @description What a Bode diagram is asked for first; null where there is none within the frequencies measured.
@@ -3541,6 +3939,105 @@ export interface components {
             value: number | null;
         };
         /**
+         * Fit
+         * @description Which parameters are fitted, and to how many windows; `unit` and SI throughout.
+         */
+        Fit: {
+            /**
+             * Candidates
+             * @description that they are chosen from
+             * @default 90
+             */
+            candidates: number;
+            /**
+             * Parameters
+             * @description paths in the rig, such as structure.k_pl; all that there are without
+             * @default [
+             *       "structure.k_pl",
+             *       "structure.c_pl",
+             *       "structure.k_lc",
+             *       "structure.c_lc",
+             *       "structure.k_2",
+             *       "structure.c_2",
+             *       "unit.k_tra",
+             *       "unit.c_tra",
+             *       "load_actuator.bypass_diameter_m",
+             *       "load_actuator.bypass_transition_reynolds",
+             *       "load_actuator.leak_m3_s_pa",
+             *       "servovalve.omega_f_rad_s",
+             *       "servovalve.zeta_f",
+             *       "servovalve.spool_gain_rad_s",
+             *       "servovalve.discharge",
+             *       "servovalve.null_m",
+             *       "load_actuator.coulomb_n",
+             *       "load_actuator.coulomb_m_s",
+             *       "load_actuator.viscous_n_s_m",
+             *       "fluid.bulk_modulus_pa",
+             *       "fluid.free_air",
+             *       "supply.high_pa",
+             *       "supply.line_supply_k",
+             *       "unit.omega_t_rad_s",
+             *       "unit.zeta_t"
+             *     ]
+             */
+            parameters: string[];
+            /**
+             * Windows
+             * @description of 0.4 s, that the model is fitted to
+             * @default 20
+             */
+            windows: number;
+        };
+        /**
+         * FittableParameter
+         * @description A parameter that can be fitted, with its value in the model in force.
+         */
+        FittableParameter: {
+            /** Group */
+            group: string;
+            /** Path */
+            path: string;
+            /** Title */
+            title: string;
+            /** Unit */
+            unit: string;
+            /** Value */
+            value: number;
+        };
+        /**
+         * FittedParameter
+         * @description A parameter before and after; `low` to `high` holds the true one with 95 % confidence.
+         *
+         *     Where `determined` is false the data do not tell it: then `after` is not what the rig is adopted with.
+         */
+        FittedParameter: {
+            /** After */
+            after: number;
+            /** At Bound */
+            at_bound: boolean;
+            /** Before */
+            before: number;
+            /** Determined */
+            determined: boolean;
+            entangled: components["schemas"]["Entangled"] | null;
+            group: components["schemas"]["Group"];
+            /**
+             * Half Percent
+             * @description half the interval, of the value; null at nothing
+             */
+            half_percent: number | null;
+            /** High */
+            high: number;
+            /** Low */
+            low: number;
+            /** Path */
+            path: string;
+            /** Title */
+            title: string;
+            /** Unit */
+            unit: string;
+        };
+        /**
          * Fluid
          * @description Oil at 40 °C and how it changes with temperature; free air at the reference pressure.
          */
@@ -3589,6 +4086,24 @@ export interface components {
          * @enum {string}
          */
         FormatName: "parquet" | "csv" | "mat" | "tdms" | "h5";
+        /**
+         * Goodness
+         * @description Eq (4) of the paper over windows that the fit has not seen, in %, the model driven by the recorded commands.
+         */
+        Goodness: {
+            /** After Percent */
+            after_percent: number | null;
+            /** Before Percent */
+            before_percent: number | null;
+            /** Windows */
+            windows: number;
+        };
+        /**
+         * Group
+         * @description What a parameter is part of.
+         * @enum {string}
+         */
+        Group: "structure" | "bypass" | "valve" | "friction" | "oil" | "supply" | "unit";
         /**
          * HandOver
          * @description Give command to whoever made this request.
@@ -3838,6 +4353,149 @@ export interface components {
             sha256: string;
             /** Unit */
             unit: string | null;
+        };
+        /**
+         * IdentificationOut
+         * @description With what was asked for, and all that came of it.
+         */
+        IdentificationOut: {
+            /** Adopted Revision */
+            adopted_revision: number | null;
+            /** Author */
+            author: string;
+            /** Based On */
+            based_on: number;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Ended At */
+            ended_at: string | null;
+            fit: components["schemas"]["Fit"];
+            goodness: components["schemas"]["Goodness"] | null;
+            /** Id */
+            id: number;
+            /** Reason */
+            reason: string | null;
+            result: components["schemas"]["Identified"] | null;
+            /** Run Ids */
+            run_ids: number[];
+            /** Seconds Left */
+            seconds_left: number | null;
+            /** Share */
+            share: number;
+            state: components["schemas"]["State"];
+        };
+        /**
+         * IdentificationRequest
+         * @description Runs to fit the model to, and which of its parameters.
+         */
+        IdentificationRequest: {
+            /**
+             * Candidates
+             * @description that they are chosen from
+             * @default 90
+             */
+            candidates: number;
+            /**
+             * Parameters
+             * @description paths in the rig, such as structure.k_pl; all that there are without
+             * @default [
+             *       "structure.k_pl",
+             *       "structure.c_pl",
+             *       "structure.k_lc",
+             *       "structure.c_lc",
+             *       "structure.k_2",
+             *       "structure.c_2",
+             *       "unit.k_tra",
+             *       "unit.c_tra",
+             *       "load_actuator.bypass_diameter_m",
+             *       "load_actuator.bypass_transition_reynolds",
+             *       "load_actuator.leak_m3_s_pa",
+             *       "servovalve.omega_f_rad_s",
+             *       "servovalve.zeta_f",
+             *       "servovalve.spool_gain_rad_s",
+             *       "servovalve.discharge",
+             *       "servovalve.null_m",
+             *       "load_actuator.coulomb_n",
+             *       "load_actuator.coulomb_m_s",
+             *       "load_actuator.viscous_n_s_m",
+             *       "fluid.bulk_modulus_pa",
+             *       "fluid.free_air",
+             *       "supply.high_pa",
+             *       "supply.line_supply_k",
+             *       "unit.omega_t_rad_s",
+             *       "unit.zeta_t"
+             *     ]
+             */
+            parameters: string[];
+            /** Run Ids */
+            run_ids: number[];
+            /**
+             * Windows
+             * @description of 0.4 s, that the model is fitted to
+             * @default 20
+             */
+            windows: number;
+        };
+        /**
+         * IdentificationSummary
+         * @description An identification; `share` is how much of it is done, `reason` why nothing came of it.
+         *
+         *     `based_on` is the revision of the rig configuration whose model it began with.
+         */
+        IdentificationSummary: {
+            /** Adopted Revision */
+            adopted_revision: number | null;
+            /** Author */
+            author: string;
+            /** Based On */
+            based_on: number;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Ended At */
+            ended_at: string | null;
+            goodness: components["schemas"]["Goodness"] | null;
+            /** Id */
+            id: number;
+            /** Reason */
+            reason: string | null;
+            /** Run Ids */
+            run_ids: number[];
+            /** Seconds Left */
+            seconds_left: number | null;
+            /** Share */
+            share: number;
+            state: components["schemas"]["State"];
+        };
+        /**
+         * Identified
+         * @description What came of it. `correlation` is in the order of `parameters`.
+         */
+        Identified: {
+            /** Correlation */
+            correlation: number[][];
+            /** Force Zeros N */
+            force_zeros_n: number[];
+            goodness: components["schemas"]["Goodness"];
+            /** Iterations */
+            iterations: number;
+            /** Notes */
+            notes: string[];
+            /** Parameters */
+            parameters: components["schemas"]["FittedParameter"][];
+            /** Residuals */
+            residuals: components["schemas"]["ChannelResidual"][];
+            /** Settled */
+            settled: boolean;
+            /** Took S */
+            took_s: number;
+            /** Windows */
+            windows: components["schemas"]["WindowUsed"][];
         };
         /**
          * Imported
@@ -4209,6 +4867,56 @@ export interface components {
             velocity_m_s: number | null;
         };
         /**
+         * LinearAsked
+         * @description Loads of which amplitudes and mean; `load_hz` puts the compensation into the loop.
+         */
+        LinearAsked: {
+            /**
+             * Amplitude N
+             * @default [
+             *       1000,
+             *       2000,
+             *       5000,
+             *       10000
+             *     ]
+             */
+            amplitude_n: number[];
+            /**
+             * From Hz
+             * @default 1
+             */
+            from_hz: number;
+            /** Load Hz */
+            load_hz?: number | null;
+            /**
+             * Mean N
+             * @default 0
+             */
+            mean_n: number;
+            /**
+             * Points
+             * @default 200
+             */
+            points: number;
+            /**
+             * To Hz
+             * @default 400
+             */
+            to_hz: number;
+        };
+        /**
+         * LinearSheet
+         * @description The loop at every amplitude; `load_hz` where the compensation is in it.
+         */
+        LinearSheet: {
+            /** Frequencies Hz */
+            frequencies_hz: (number | null)[];
+            /** Load Hz */
+            load_hz: number | null;
+            /** Loops */
+            loops: components["schemas"]["LoopAt"][];
+        };
+        /**
          * Link
          * @description A link that signs its user in, once; `path` goes behind the console's address.
          */
@@ -4327,6 +5035,35 @@ export interface components {
             volume_2_m3: number;
         };
         /**
+         * LoopAt
+         * @description The force loop for a load of one amplitude: eqs (6) to (8), margins, responses.
+         */
+        LoopAt: {
+            /** Amplitude N */
+            amplitude_n: number;
+            closed_loop: components["schemas"]["Response"];
+            dip: components["schemas"]["Extreme"];
+            /** K 1 N */
+            k_1_n: number;
+            /** K 2 N S M */
+            k_2_n_s_m: number;
+            margins: components["schemas"]["MarginsOut"];
+            /** Mean N */
+            mean_n: number;
+            open_loop: components["schemas"]["Response"];
+            peak: components["schemas"]["Extreme"];
+            /** Tau S */
+            tau_s: number;
+        };
+        /**
+         * LoopBeside
+         * @description The open loop with the branch and without it.
+         */
+        LoopBeside: {
+            margins: components["schemas"]["MarginsOut"];
+            response: components["schemas"]["Response"];
+        };
+        /**
          * LoopHealth
          * @description The loop process. Times are over its whole life; null beyond the histogram's 1 ms.
          */
@@ -4433,6 +5170,20 @@ export interface components {
             time_s: number | null;
             /** Unit */
             unit: string | null;
+        };
+        /**
+         * MarginsOut
+         * @description Of an open loop; null where it does not cross.
+         */
+        MarginsOut: {
+            /** Crossover Hz */
+            crossover_hz: number | null;
+            /** Gain Margin Db */
+            gain_margin_db: number | null;
+            /** Phase Margin Deg */
+            phase_margin_deg: number | null;
+            /** Worst Sensitivity */
+            worst_sensitivity: number;
         };
         /**
          * MatrixCellOut
@@ -4563,6 +5314,22 @@ export interface components {
             detector: string;
             /** Why */
             why: string;
+        };
+        /**
+         * OrificeCurves
+         * @description An orifice over the valve command: load pressure, force, its slope, and the flow past the piston.
+         */
+        OrificeCurves: {
+            /** Bypass Flow M3 S */
+            bypass_flow_m3_s: (number | null)[];
+            /** Force Gain N */
+            force_gain_n: (number | null)[];
+            /** Force N */
+            force_n: (number | null)[];
+            /** Load Pressure Pa */
+            load_pressure_pa: (number | null)[];
+            /** Orifice Diameter M */
+            orifice_diameter_m: number;
         };
         /**
          * Outcome
@@ -4773,34 +5540,66 @@ export interface components {
             yaml?: string | null;
         };
         /**
-         * PreviewOut
-         * @description The setpoints of a window, bin by bin, and what the whole test comes to.
+         * PreviewAsked
+         * @description Settings that nobody has put in force, the test to try them with, and what they are laid beside.
          */
-        PreviewOut: {
-            /** Block */
-            block: number[];
-            /** Decimated */
-            decimated: boolean;
-            /** Displacement Max M */
-            displacement_max_m: number[];
-            /** Displacement Min M */
-            displacement_min_m: number[];
-            /** Duration S */
-            duration_s: number;
-            /** Force Max N */
-            force_max_n: number[];
-            /** Force Min N */
-            force_min_n: number[];
-            /** From S */
-            from_s: number;
-            outline: components["schemas"]["Outline"];
-            peaks: components["schemas"]["app__definitions__preview__Peaks"];
-            /** Shortened */
-            shortened: boolean;
+        PreviewAsked: {
+            /**
+             * Beside
+             * @description a revision; without it, in force
+             */
+            beside?: number | null;
+            /** Document */
+            document: {
+                [key: string]: unknown;
+            };
+            /**
+             * Test Id
+             * @default step-2-kn
+             */
+            test_id: string;
+        };
+        /**
+         * PreviewSide
+         * @description The test under one controller; `revision` is null for the draft.
+         *
+         *     `nearest` is the detector that comes nearest to its trip, with what is left as a share of its limit.
+         */
+        PreviewSide: {
+            /** Error Peak N */
+            error_peak_n: number | null;
+            /** Error Rms N */
+            error_rms_n: number | null;
+            force_command_n: components["schemas"]["app__controller__preview_schemas__Band"];
+            force_n: components["schemas"]["app__controller__preview_schemas__Band"];
+            /** Measurements */
+            measurements: components["schemas"]["BlockMeasured"][];
+            /** Nearest */
+            nearest: string | null;
+            /** Nearest Share */
+            nearest_share: number | null;
+            /** Outcome */
+            outcome: string;
+            /** Reason */
+            reason: string | null;
+            /** Revision */
+            revision: number | null;
+            /** Saturation Share */
+            saturation_share: number;
             /** Time S */
             time_s: number[];
-            /** To S */
-            to_s: number;
+        };
+        /**
+         * Previewed
+         * @description Both, side by side.
+         */
+        Previewed: {
+            beside: components["schemas"]["PreviewSide"];
+            draft: components["schemas"]["PreviewSide"];
+            /** Test Id */
+            test_id: string;
+            /** Test Name */
+            test_name: string;
         };
         /**
          * Problem
@@ -5028,6 +5827,38 @@ export interface components {
             /** Text */
             text: string[];
             unchanged: components["schemas"]["CourseOut"];
+        };
+        /**
+         * Response
+         * @description A frequency response at the frequencies of its sheet; the phase goes on beyond ±180°.
+         */
+        Response: {
+            /** Gain Db */
+            gain_db: (number | null)[];
+            /** Phase Deg */
+            phase_deg: (number | null)[];
+        };
+        /**
+         * ResponseFrame
+         * @description On the live stream, whenever a point is made or changes; of several of one point the newest wins.
+         */
+        ResponseFrame: {
+            /** Block */
+            block: number;
+            point: components["schemas"]["ResponsePointOut"];
+            /** Run */
+            run: number;
+            /**
+             * Transfer
+             * @enum {string}
+             */
+            transfer: "force" | "plant" | "disturbance" | "compliance" | "position";
+            /**
+             * Type
+             * @default response
+             * @constant
+             */
+            type: "response";
         };
         /**
          * ResponseOut
@@ -5601,7 +6432,7 @@ export interface components {
         RunSamples: {
             /** Channels */
             channels: {
-                [key: string]: components["schemas"]["Band"];
+                [key: string]: components["schemas"]["app__runs__schemas__Band"];
             };
             /** Decimated */
             decimated: boolean;
@@ -6017,6 +6848,26 @@ export interface components {
             low: number | null;
             /** Mean */
             mean: number | null;
+        };
+        /**
+         * State
+         * @description Where an identification is.
+         * @enum {string}
+         */
+        State: "waiting" | "running" | "done" | "failed" | "cancelled" | "interrupted";
+        /**
+         * StaticSheet
+         * @description The static characteristic (figure 5), the rod end fixed.
+         */
+        StaticSheet: {
+            /** In Force Diameter M */
+            in_force_diameter_m: number;
+            /** Orifices */
+            orifices: components["schemas"]["OrificeCurves"][];
+            /** Pressure Pa */
+            pressure_pa: number;
+            /** Valve Command */
+            valve_command: (number | null)[];
         };
         /**
          * StatusFrame
@@ -6644,6 +7495,22 @@ export interface components {
             value: number | null;
         };
         /**
+         * Tuning
+         * @description FF_V and FF_A with which the branch is exact at one frequency, and W there, s/m.
+         */
+        Tuning: {
+            /** Ff A */
+            ff_a: number;
+            /** Ff V */
+            ff_v: number;
+            /** Frequency Hz */
+            frequency_hz: number;
+            /** Gain */
+            gain: number;
+            /** Phase Deg */
+            phase_deg: number;
+        };
+        /**
          * UncertaintyOut
          * @description How well the force was measured, at any instant; expanded uncertainties have the factor `coverage`.
          */
@@ -6808,6 +7675,18 @@ export interface components {
             text: string;
         };
         /**
+         * WindowUsed
+         * @description A window that the model was fitted to, counted from its run's first tick.
+         */
+        WindowUsed: {
+            /** From S */
+            from_s: number;
+            /** Run Id */
+            run_id: number;
+            /** To S */
+            to_s: number;
+        };
+        /**
          * Difference
          * @description What two revisions differ in; `text` is the unified difference of their YAML.
          */
@@ -6820,6 +7699,36 @@ export interface components {
             text: string;
             /** To */
             to: number;
+        };
+        /**
+         * PreviewOut
+         * @description The setpoints of a window, bin by bin, and what the whole test comes to.
+         */
+        app__catalogue__schemas__PreviewOut: {
+            /** Block */
+            block: number[];
+            /** Decimated */
+            decimated: boolean;
+            /** Displacement Max M */
+            displacement_max_m: number[];
+            /** Displacement Min M */
+            displacement_min_m: number[];
+            /** Duration S */
+            duration_s: number;
+            /** Force Max N */
+            force_max_n: number[];
+            /** Force Min N */
+            force_min_n: number[];
+            /** From S */
+            from_s: number;
+            outline: components["schemas"]["Outline"];
+            peaks: components["schemas"]["app__definitions__preview__Peaks"];
+            /** Shortened */
+            shortened: boolean;
+            /** Time S */
+            time_s: number[];
+            /** To S */
+            to_s: number;
         };
         /**
          * RevisionSummary
@@ -6868,6 +7777,39 @@ export interface components {
             settings: components["schemas"]["SettingRow"][];
             /** Settings In All */
             settings_in_all: number;
+        };
+        /**
+         * Band
+         * @description Least and greatest value over each stretch of time.
+         */
+        app__controller__preview_schemas__Band: {
+            /** Max */
+            max: number[];
+            /** Min */
+            min: number[];
+        };
+        /**
+         * PreviewOut
+         * @description A preview that is under way, or what came of it.
+         */
+        app__controller__preview_schemas__PreviewOut: {
+            /** Id */
+            id: string;
+            /**
+             * Made At
+             * Format: date-time
+             */
+            made_at: string;
+            /** Reason */
+            reason: string | null;
+            result: components["schemas"]["Previewed"] | null;
+            /** Seconds Left */
+            seconds_left: number | null;
+            /** Share */
+            share: number;
+            state: components["schemas"]["JobState"];
+            /** Title */
+            title: string;
         };
         /**
          * Peaks
@@ -6983,6 +7925,16 @@ export interface components {
             velocity_m_s: number | null;
         };
         /**
+         * Band
+         * @description Least and greatest value at each time; null where the channel was not a number.
+         */
+        app__runs__schemas__Band: {
+            /** Max */
+            max: (number | null)[];
+            /** Min */
+            min: (number | null)[];
+        };
+        /**
          * Comparison
          * @description When a detector is violated; a NaN violates all of them.
          * @enum {integer}
@@ -6997,6 +7949,123 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
+    analyseCompensator: {
+        parameters: {
+            query?: {
+                from_hz?: number;
+                to_hz?: number;
+                points?: number;
+                load_hz?: number;
+                amplitude_n?: number;
+                mean_n?: number;
+                tune_hz?: number | null;
+                /** @description a revision of the rig configuration; without it, in force */
+                rig_revision?: number | null;
+                /** @description a revision of the controller; without it, in force */
+                controller_revision?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CompensatorSheet"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    analyseLinear: {
+        parameters: {
+            query?: {
+                from_hz?: number;
+                to_hz?: number;
+                points?: number;
+                amplitude_n?: number[];
+                mean_n?: number;
+                load_hz?: number | null;
+                /** @description a revision of the rig configuration; without it, in force */
+                rig_revision?: number | null;
+                /** @description a revision of the controller; without it, in force */
+                controller_revision?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LinearSheet"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    analyseStatic: {
+        parameters: {
+            query?: {
+                orifice_diameter_m?: number[];
+                /** @description p_s - p_t */
+                pressure_pa?: number | null;
+                points?: number;
+                /** @description a revision of the rig configuration; without it, in force */
+                rig_revision?: number | null;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["StaticSheet"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     listAudit: {
         parameters: {
             query?: {
@@ -7305,6 +8374,39 @@ export interface operations {
             };
         };
     };
+    checkController: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DraftAsked"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ControllerCheck"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     getControllerDifference: {
         parameters: {
             query: {
@@ -7324,6 +8426,101 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["app__revisions__schemas__Difference"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    previewController: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PreviewAsked"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["app__controller__preview_schemas__PreviewOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getControllerPreview: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                preview_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["app__controller__preview_schemas__PreviewOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    giveUpControllerPreview: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                preview_id: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["app__controller__preview_schemas__PreviewOut"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -7991,6 +9188,227 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["HistoryInfo"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listIdentifications: {
+        parameters: {
+            query?: {
+                /** @description older than this */
+                before?: number | null;
+                limit?: number;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["IdentificationSummary"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    startIdentification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["IdentificationRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            202: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["IdentificationOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    listFittableParameters: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["FittableParameter"][];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    getIdentification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["IdentificationOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    removeIdentification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    adoptIdentification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AdoptRequest"];
+            };
+        };
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["IdentificationOut"];
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    cancelIdentification: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                number: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["IdentificationOut"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -10240,7 +11658,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["PreviewOut"];
+                    "application/json": components["schemas"]["app__catalogue__schemas__PreviewOut"];
                 };
             };
             /** @description A problem document (RFC 9457) */
