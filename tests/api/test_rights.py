@@ -25,6 +25,8 @@ VIEWER = {  # what computes and changes nothing, what stops the rig, and what is
 ENGINEER = {
     *("changeInterlocks", "removeFirstOut", "changeRetention", "listAudit", "verifyAudit"),
     *("giveDrill", "clearDrills"),
+    *("startIdentification", "cancelIdentification", "removeIdentification"),
+    "adoptIdentification",
 }
 ADMIN = {"listUsers", "addUser", "changeUser", "removeUser", "linkUser"}
 
