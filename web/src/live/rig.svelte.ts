@@ -6,6 +6,7 @@ import { logged, type EventLog } from "./eventlog";
 import { judge, sentence, type Freshness, type Signs } from "./freshness";
 import { Link } from "./link";
 import { Misses } from "./misses";
+import { tellPoint } from "./responses/points";
 import { prepare, recentSpan, take, type Span } from "./samples";
 import type { Hello, RigStatus, ServerMessage } from "./types";
 
@@ -78,6 +79,7 @@ class Rig {
     else if (message.type === "hello") this.takeHello(message);
     else if (message.type === "event") this.events = logged(this.events, message.event);
     else if (message.type === "runs") this.runsVersion += 1;
+    else if (message.type === "response") tellPoint(message);
     else if (message.type === "error") this.unreadable = message.detail;
   }
 

@@ -1,9 +1,12 @@
 // What stands under the force chart: before a run its prediction, while it runs charts, after it its outcome.
 
+import { runBlocks } from "./outlines.svelte";
 import { rig } from "./rig.svelte";
 import { tests } from "./tests.svelte";
 
-export type Scene = "charts" | "prediction" | "outcome" | "resume";
+export type Scene = "charts" | "prediction" | "outcome" | "resume" | "response";
+
+const RESPONSE = "frequency_response"; // a kind of block
 
 class Stage {
   /** A person's own choice of charts; it lasts until something else begins. */
@@ -15,7 +18,7 @@ class Stage {
   readonly offered: Scene = $derived.by(() => {
     const mode = rig.status?.mode;
     if (mode === "holding") return "resume";
-    if (rig.status?.run) return "charts";
+    if (rig.status?.run) return runBlocks.blocks.some(({ kind }) => kind === RESPONSE) ? "response" : "charts";
     if (this.endedRun !== null) return "outcome";
     return tests.chosen === null ? "charts" : "prediction";
   });

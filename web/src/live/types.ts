@@ -19,7 +19,12 @@ export type RigCommand = Schemas["RigCommand"];
 export type Command = keyof Schemas["CommandReasons"];
 
 export type ServerMessage =
-  Hello | Schemas["StatusFrame"] | Schemas["EventFrame"] | Schemas["RunsChanged"] | Schemas["ErrorFrame"];
+  | Hello
+  | Schemas["StatusFrame"]
+  | Schemas["EventFrame"]
+  | Schemas["RunsChanged"]
+  | Schemas["ResponseFrame"]
+  | Schemas["ErrorFrame"];
 
 export type TestSummary = Schemas["TestSummary"];
 export type Run = Schemas["RunSummary"];

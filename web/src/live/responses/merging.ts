@@ -1,0 +1,38 @@
+// Points of a frequency response as they come while it runs, into what was read of it before. Pure.
+
+import type { FrequencyResponse, ResponseFrame, ResponsePoint, ResponseSeries } from "./types";
+
+const SAME = 1e-6;
+/** A point that was too high may have been played at a half, a quarter … of what was asked for. */
+const HALVINGS = 7;
+
+/** Takes a point in; the one that it is newer than gives way. Of another transfer it changes nothing. */
+export function merged(response: FrequencyResponse, { block, transfer, point }: ResponseFrame): FrequencyResponse {
+  if (transfer !== response.transfer) return response;
+  const at = response.series.findIndex((series) => series.block === block && belongs(series, point));
+  const series =
+    at < 0
+      ? [...response.series, begun(block, point)]
+      : response.series.map((one, i) => (i === at ? { ...one, points: withPoint(one.points, point) } : one));
+  return { ...response, series };
+}
+
+function belongs({ amplitude_n, mean_n }: ResponseSeries, point: ResponsePoint): boolean {
+  if (Math.abs(mean_n - point.mean_n) > SAME * Math.max(1, Math.abs(mean_n))) return false;
+  return Array.from({ length: HALVINGS }, (_, n) => amplitude_n / 2 ** n).some(
+    (amplitude) => Math.abs(amplitude - point.amplitude_n) <= SAME * amplitude_n,
+  );
+}
+
+const begun = (block: number, point: ResponsePoint): ResponseSeries => ({
+  ...{ block, method: "stepped_sine", amplitude_n: point.amplitude_n, mean_n: point.mean_n },
+  points: [point],
+  extremes: { peak: null, dip: null, minus_3_db_hz: null, minus_90_deg_hz: null },
+});
+
+const isAt = (point: ResponsePoint, hz: number): boolean => Math.abs(point.frequency_hz - hz) <= SAME * hz;
+
+function withPoint(points: readonly ResponsePoint[], point: ResponsePoint): ResponsePoint[] {
+  const others = points.filter((one) => !isAt(one, point.frequency_hz));
+  return [...others, point].sort((a, b) => a.frequency_hz - b.frequency_hz);
+}
