@@ -22,11 +22,15 @@ from app.live.messages import (
 )
 from app.main import create_app
 from app.rigs.schemas import ModeWord
+from app.runs.response_schemas import ResponseFrame
 from app.settings import Settings
 from rtcore.channels import CHANNELS
 
 DEFAULT_FOLDER = Path(__file__).parent.parent / "web" / "src" / "gen"
-_FRAMES = (Subscribe, Hello, StatusFrame, EventFrame, RunsChanged, ErrorFrame)
+_FRAMES = (
+    *(Subscribe, Hello, StatusFrame, EventFrame, RunsChanged, ErrorFrame),
+    ResponseFrame,
+)
 
 
 def openapi() -> dict[str, Any]:
