@@ -58,12 +58,13 @@ class Coefficients:
 
 @dataclass(frozen=True)
 class Margins:
-    """Of the open loop; `worst_sensitivity` is the peak of 1/|1 + L|."""
+    """Of the open loop; `worst_sensitivity` is the peak of 1/|1 + L|, `turnover_hz` where the gain margin is."""
 
     crossover_hz: float
     phase_deg: float
     gain_db: float
     worst_sensitivity: float
+    turnover_hz: float = math.nan
 
 
 def valve_conductance(rig: RigParameters, mean_n: float = 0.0) -> float:
@@ -205,7 +206,7 @@ class ForceLoop:
         grid = np.geomspace(from_hz, to_hz, points)
         loop = self.open_loops(grid)
         over = np.flatnonzero(np.abs(loop) > 1.0)
-        crossover = phase = gain = math.nan
+        crossover = phase = gain = turnover = math.nan
         if len(over) > 0 and over[-1] + 1 < points:
             edges = grid[over[-1]], grid[over[-1] + 1]
             crossover = float(brentq(lambda f: abs(self.open_loop(f)) - 1.0, *edges))
@@ -213,9 +214,10 @@ class ForceLoop:
         turned = np.flatnonzero(np.unwrap(np.angle(loop)) < -math.pi)
         if len(turned) > 0 and turned[0] > 0:
             edges = grid[turned[0] - 1], grid[turned[0]]
-            at = brentq(lambda f: self.open_loop(f).imag, *edges)
-            gain = -20.0 * math.log10(abs(self.open_loop(float(at))))
-        return Margins(crossover, phase, gain, float(1.0 / np.min(np.abs(1.0 + loop))))
+            turnover = float(brentq(lambda f: self.open_loop(f).imag, *edges))
+            gain = -20.0 * math.log10(abs(self.open_loop(turnover)))
+        worst = float(1.0 / np.min(np.abs(1.0 + loop)))
+        return Margins(crossover, phase, gain, worst, turnover)
 
     def _shifts(self, frequencies_hz: Floats) -> Complexes:
         return np.array([shift(f, self.period_s) for f in frequencies_hz])

@@ -9,7 +9,7 @@ from app.errors import Refusal
 from app.problems import FaultOut
 from app.revisions.difference import difference
 from app.revisions.kind import Revision
-from app.revisions.schemas import Difference
+from app.revisions.schemas import SettingsDifference
 from app.sheets.asked import CompensatorAsked, LinearAsked
 from app.sheets.compensator import compensator_sheet
 from app.sheets.linear import linear_sheet
@@ -32,7 +32,7 @@ class ControllerCheck(BaseModel):
 
     valid: bool
     errors: list[FaultOut]
-    difference: Difference | None
+    difference: SettingsDifference | None
     loop: LinearSheet | None
     compensator: CompensatorSheet | None
 

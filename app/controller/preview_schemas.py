@@ -29,7 +29,7 @@ class BlockMeasured(BaseModel):
     value: float
 
 
-class Band(BaseModel):
+class Stretches(BaseModel):
     """Least and greatest value over each stretch of time."""
 
     min: list[float]
@@ -52,8 +52,8 @@ class PreviewSide(BaseModel):
     nearest_share: float | None
     measurements: list[BlockMeasured]
     time_s: list[float]
-    force_n: Band
-    force_command_n: Band
+    force_n: Stretches
+    force_command_n: Stretches
 
 
 class Previewed(BaseModel):
@@ -65,7 +65,7 @@ class Previewed(BaseModel):
     beside: PreviewSide
 
 
-class PreviewOut(JobOut):
+class ControllerPreview(JobOut):
     """A preview that is under way, or what came of it."""
 
     result: Previewed | None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.controller.preview_schemas import Band, BlockMeasured, Previewed, PreviewSide
+from app.controller.preview_schemas import BlockMeasured, Previewed, PreviewSide, Stretches
 from app.definitions.limits import RIG
 from app.definitions.outline import outline
 from app.errors import Refusal
@@ -92,7 +92,7 @@ class _Curves:
     def __init__(self, duration_s: float) -> None:
         self._stride = max(1, math.ceil(duration_s / RIG.period_s / POINTS))
         self._left: Records | None = None
-        self._bands = {channel: Band(min=[], max=[]) for channel in SHOWN}
+        self._bands = {channel: Stretches(min=[], max=[]) for channel in SHOWN}
         self.time_s: list[float] = []
 
     def take(self, records: Records) -> None:
@@ -107,6 +107,6 @@ class _Curves:
         begun, width_s = len(self.time_s), self._stride * RIG.period_s
         self.time_s += [round((begun + i) * width_s, 9) for i in range(len(stretches))]
 
-    def band(self, channel: str) -> Band:
+    def band(self, channel: str) -> Stretches:
         """A channel over all stretches."""
         return self._bands[channel]

@@ -1,7 +1,7 @@
 """Previews of controllers that nobody has put in force: made in a process apart, a few kept."""
 
 from app.catalogue.service import Catalogue
-from app.controller.preview_schemas import Previewed, PreviewOut
+from app.controller.preview_schemas import ControllerPreview, Previewed
 from app.controller.previewing import Side, preview
 from app.controller.service import ControllerSettingsBook
 from app.controller.settings import ControllerSettings
@@ -38,7 +38,7 @@ class Previews:
 
     def ask(
         self, draft: ControllerSettings, test_id: str, beside: int | None
-    ) -> PreviewOut | Refusal:
+    ) -> ControllerPreview | Refusal:
         """Begin to try a draft with a test, beside a revision or what is in force."""
         now = self._controllers.in_force
         other = now if beside is None else self._controllers.revision(beside)
@@ -59,22 +59,24 @@ class Previews:
         )
         return _told(self._jobs.start(f"Preview: {stored.name}", preview, test_id, *sides))
 
-    def of(self, preview_id: str) -> PreviewOut | Refusal:
+    def of(self, preview_id: str) -> ControllerPreview | Refusal:
         """How far one is, or what came of it."""
         return _told(self._jobs.get(preview_id))
 
-    def give_up(self, preview_id: str) -> PreviewOut | Refusal:
+    def give_up(self, preview_id: str) -> ControllerPreview | Refusal:
         """Nobody wants it any more."""
         return _told(self._jobs.cancel(preview_id))
 
 
-def _told(job: Job[Previewed | Refusal] | Refusal) -> PreviewOut | Refusal:
+def _told(job: Job[Previewed | Refusal] | Refusal) -> ControllerPreview | Refusal:
     if isinstance(job, Refusal):
         return job
     if isinstance(job.result, Refusal):
         return job.result
-    told = {name: getattr(job, name) for name in PreviewOut.model_fields}
-    return PreviewOut.model_validate(told | {"result": job.result if _is_done(job) else None})
+    told = {name: getattr(job, name) for name in ControllerPreview.model_fields}
+    return ControllerPreview.model_validate(
+        told | {"result": job.result if _is_done(job) else None}
+    )
 
 
 def _is_done(job: Job[Previewed | Refusal]) -> bool:

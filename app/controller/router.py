@@ -12,7 +12,13 @@ from app.dependencies import AuthorityService, ControllerService
 from app.problems import PROBLEMS, granted
 from app.revisions.difference import difference
 from app.revisions.kind import Wanted
-from app.revisions.schemas import Difference, DocumentChange, Number, Reason, RevisionSummary
+from app.revisions.schemas import (
+    DocumentChange,
+    Number,
+    Reason,
+    SettingsDifference,
+    SettingsRevision,
+)
 
 router = APIRouter(prefix="/api/v1/controller", tags=["controller"], responses=PROBLEMS)
 
@@ -43,10 +49,10 @@ def list_revisions(
         Number | None, Query(description="the last number of the page before")
     ] = None,
     limit: Annotated[int, Query(ge=1, le=1000)] = 100,
-) -> list[RevisionSummary]:
+) -> list[SettingsRevision]:
     """The revisions, the newest first."""
     rows = controllers.revisions(before, limit)
-    return [RevisionSummary.model_validate(row, from_attributes=True) for row in rows]
+    return [SettingsRevision.model_validate(row, from_attributes=True) for row in rows]
 
 
 @router.get("/revisions/{number}", operation_id="getControllerRevision")
@@ -79,7 +85,7 @@ def get_difference(
     controllers: ControllerService,
     from_: Annotated[Number, Query(alias="from")],
     to: Number,
-) -> Difference:
+) -> SettingsDifference:
     """What two revisions differ in, value by value."""
     before, after = (granted(controllers.revision(number)) for number in (from_, to))
     return difference(before.document, after.document, (before.number, after.number))

@@ -5,7 +5,7 @@ from datetime import datetime
 from pydantic import BaseModel
 
 from app.controller.settings import Compensator, ControllerSettings
-from app.revisions.schemas import RevisionSummary
+from app.revisions.schemas import SettingsRevision
 
 
 class ControllerOut(BaseModel):
@@ -20,7 +20,7 @@ class ControllerOut(BaseModel):
     presets: dict[str, Compensator]
 
 
-class ControllerRevisionOut(RevisionSummary):
+class ControllerRevisionOut(SettingsRevision):
     """With its settings. Number 0 is the one as shipped."""
 
     document: ControllerSettings

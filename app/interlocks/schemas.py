@@ -8,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.definitions.difference import ChangeKind
 from app.interlocks.detector import Detector
-from app.revisions.schemas import Reason, RevisionSummary
+from app.revisions.schemas import Reason, SettingsRevision
 
 
 class InterlocksText(BaseModel):
@@ -24,7 +24,7 @@ class InterlocksChange(InterlocksText, Reason):
     """Another table; `based_on` is the revision that it was made from."""
 
 
-class TableRevision(RevisionSummary):
+class TableRevision(SettingsRevision):
     """A table that was once in force: by whom, when and why."""
 
 

@@ -30,7 +30,7 @@ class DocumentChange(Reason):
     document: Annotated[dict[str, Any], Field(max_length=100)]
 
 
-class RevisionSummary(BaseModel):
+class SettingsRevision(BaseModel):
     """A revision that was once in force: by whom, when and why."""
 
     number: int
@@ -39,7 +39,7 @@ class RevisionSummary(BaseModel):
     created_at: datetime
 
 
-class Change(BaseModel):
+class SettingsChange(BaseModel):
     """A value that differs; null for one that is not there."""
 
     path: str
@@ -48,9 +48,9 @@ class Change(BaseModel):
     after: Value
 
 
-class Difference(BaseModel):
+class SettingsDifference(BaseModel):
     """What two revisions differ in; null for one that is not stored."""
 
     before: int | None
     to: int | None
-    changes: list[Change]
+    changes: list[SettingsChange]

@@ -16,7 +16,7 @@ Notes = Annotated[str, StringConstraints(pattern=NO_NUL, strip_whitespace=True, 
 FULL_SCALE_V = 10.0
 
 
-class Item(Document):
+class TypePlate(Document):
     """Something with a type plate."""
 
     name: Words = ""
@@ -73,7 +73,7 @@ class Calibrations(Document):
     supply_pressure: Calibration = _of_range(35e6)
 
 
-class Limits(Document):
+class LabLimits(Document):
     """What the lab lets tests ask of this rig and unit, within what the rig can do; None for no limit of its own."""
 
     force_n: float | None = Field(default=None, gt=0, le=RIG.force_limit_n)
@@ -105,10 +105,10 @@ class RigConfiguration(Document):
     """
 
     lab: Words = Field(default="", description="name of the lab that runs the rig")
-    rig: Item = Item(name="Tail rotor actuator rig")
-    unit_under_test: Item = Item(name="Tail rotor actuator")
+    rig: TypePlate = TypePlate(name="Tail rotor actuator rig")
+    unit_under_test: TypePlate = TypePlate(name="Tail rotor actuator")
     calibrations: Calibrations = Calibrations()
-    limits: Limits = Limits()
+    limits: LabLimits = LabLimits()
     model: Annotated[RigParameters, BeforeValidator(_with_shipped)] = Field(
         default_factory=load_rig
     )

@@ -4,7 +4,7 @@ from datetime import datetime
 
 from pydantic import BaseModel
 
-from app.revisions.schemas import RevisionSummary
+from app.revisions.schemas import SettingsRevision
 from app.rig_configuration.configuration import RigConfiguration
 from app.rig_configuration.due import CalibrationState
 
@@ -21,7 +21,7 @@ class RigConfigurationOut(BaseModel):
     calibrations: list[CalibrationState]
 
 
-class RigConfigurationRevisionOut(RevisionSummary):
+class RigConfigurationRevisionOut(SettingsRevision):
     """With its document. Number 0 is the one as shipped."""
 
     document: RigConfiguration

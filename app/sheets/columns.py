@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from app.sheets.schemas import CompensatorSheet, Curve, LinearSheet, Response, StaticSheet
+from app.sheets.schemas import CompensatorSheet, Curve, LinearSheet, LoopResponse, StaticSheet
 
 Columns = dict[str, Curve]
 
@@ -54,7 +54,7 @@ def of_linear(sheet: LinearSheet) -> Columns:
 
 def of_compensator(sheet: CompensatorSheet) -> Columns:
     """A row for each frequency."""
-    shown: dict[str, Response] = {
+    shown: dict[str, LoopResponse] = {
         "lead": sheet.lead,
         "low_pass": sheet.low_pass,
         "notch": sheet.notch,

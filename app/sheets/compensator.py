@@ -15,7 +15,7 @@ from app.errors import Refusal
 from app.sheets.asked import CompensatorAsked
 from app.sheets.curves import Floats, curve, grid, in_db, margins_out, response
 from app.sheets.linear import linearised
-from app.sheets.schemas import CompensatorSheet, LoopBeside, Response, Tuning
+from app.sheets.schemas import CompensatorSheet, LoopBeside, LoopResponse, Tuning
 from rtcore.control.response import compensation_response, quadrature_gains, shift
 from rtcore.rig.parameters import RigParameters
 
@@ -58,7 +58,7 @@ def tuning(loop: ForceLoop, frequency_hz: float) -> Tuning:
     )
 
 
-def _branches(loop: ForceLoop, load_hz: float, frequencies_hz: Floats) -> dict[str, Response]:
+def _branches(loop: ForceLoop, load_hz: float, frequencies_hz: Floats) -> dict[str, LoopResponse]:
     z = np.array([shift(f, loop.period_s) for f in frequencies_hz])
     lead, low_pass, notch = branch_parts(loop.gains, load_hz, z, loop.period_s)
     fed = [compensation_response(loop.gains, load_hz, at, loop.period_s) for at in z]

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from app.analysis.linear import Margins
 from app.sheets.asked import Band
-from app.sheets.schemas import Curve, Extreme, MarginsOut, Response
+from app.sheets.schemas import Curve, LoopExtreme, LoopResponse, MarginsOut
 
 Floats = npt.NDArray[np.float64]
 Complexes = npt.NDArray[np.complex128]
@@ -34,15 +34,17 @@ def in_db(values: Complexes | Floats) -> Floats:
     return np.asarray(20.0 * np.log10(np.maximum(np.abs(values), LEAST_GAIN)))
 
 
-def response(values: Complexes) -> Response:
+def response(values: Complexes) -> LoopResponse:
     """Gain, and phase without jumps of 360°."""
     phase = np.degrees(np.unwrap(np.angle(values)))
-    return Response(gain_db=curve(in_db(values)), phase_deg=curve(phase))
+    return LoopResponse(gain_db=curve(in_db(values)), phase_deg=curve(phase))
 
 
-def extreme(frequencies_hz: Floats, values: Complexes, place: int) -> Extreme:
+def extreme(frequencies_hz: Floats, values: Complexes, place: int) -> LoopExtreme:
     """The gain at one place."""
-    return Extreme(frequency_hz=float(frequencies_hz[place]), gain_db=float(in_db(values)[place]))
+    return LoopExtreme(
+        frequency_hz=float(frequencies_hz[place]), gain_db=float(in_db(values)[place])
+    )
 
 
 def margins_out(found: Margins) -> MarginsOut:
@@ -52,4 +54,5 @@ def margins_out(found: Margins) -> MarginsOut:
         phase_margin_deg=number(found.phase_deg),
         gain_margin_db=number(found.gain_db),
         worst_sensitivity=found.worst_sensitivity,
+        turnover_hz=number(found.turnover_hz),
     )

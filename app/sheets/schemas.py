@@ -24,14 +24,14 @@ class StaticSheet(BaseModel):
     orifices: list[OrificeCurves]
 
 
-class Response(BaseModel):
+class LoopResponse(BaseModel):
     """A frequency response at the frequencies of its sheet; the phase goes on beyond ±180°."""
 
     gain_db: Curve
     phase_deg: Curve
 
 
-class Extreme(BaseModel):
+class LoopExtreme(BaseModel):
     """Where a gain is greatest or least."""
 
     frequency_hz: float
@@ -39,12 +39,13 @@ class Extreme(BaseModel):
 
 
 class MarginsOut(BaseModel):
-    """Of an open loop; null where it does not cross."""
+    """Of an open loop; null where it does not cross. The gain margin is at `turnover_hz`."""
 
     crossover_hz: float | None
     phase_margin_deg: float | None
     gain_margin_db: float | None
     worst_sensitivity: float
+    turnover_hz: float | None
 
 
 class LoopAt(BaseModel):
@@ -56,10 +57,10 @@ class LoopAt(BaseModel):
     k_2_n_s_m: float
     tau_s: float
     margins: MarginsOut
-    open_loop: Response
-    closed_loop: Response
-    peak: Extreme
-    dip: Extreme
+    open_loop: LoopResponse
+    closed_loop: LoopResponse
+    peak: LoopExtreme
+    dip: LoopExtreme
 
 
 class LinearSheet(BaseModel):
@@ -83,7 +84,7 @@ class Tuning(BaseModel):
 class LoopBeside(BaseModel):
     """The open loop with the branch and without it."""
 
-    response: Response
+    response: LoopResponse
     margins: MarginsOut
 
 
@@ -98,11 +99,11 @@ class CompensatorSheet(BaseModel):
     amplitude_n: float
     mean_n: float
     frequencies_hz: Curve
-    lead: Response
-    low_pass: Response
-    notch: Response
-    whole: Response
-    compensation: Response
+    lead: LoopResponse
+    low_pass: LoopResponse
+    notch: LoopResponse
+    whole: LoopResponse
+    compensation: LoopResponse
     with_branch: LoopBeside
     without_branch: LoopBeside
     disturbance_db: Curve

@@ -2531,6 +2531,16 @@ export interface components {
             next: number | null;
         };
         /**
+         * Band
+         * @description Least and greatest value at each time; null where the channel was not a number.
+         */
+        Band: {
+            /** Max */
+            max: (number | null)[];
+            /** Min */
+            min: (number | null)[];
+        };
+        /**
          * BandOut
          * @description A requirement band of the test.
          */
@@ -2770,25 +2780,11 @@ export interface components {
          * Change
          * @description One value, by a path such as `controller.k_p` or `interlocks.force_error.threshold`.
          */
-        "Change-Input": {
+        Change: {
             /** Path */
             path: string;
             /** Value */
             value: boolean | number | string | string[] | null;
-        };
-        /**
-         * Change
-         * @description A value that differs; null for one that is not there.
-         */
-        "Change-Output": {
-            /** After */
-            after: boolean | number | string | null;
-            /** Before */
-            before: boolean | number | string | null;
-            /** Path */
-            path: string;
-            /** Unit */
-            unit: string | null;
         };
         /**
          * ChangeKind
@@ -3033,20 +3029,20 @@ export interface components {
         CompensatorSheet: {
             /** Amplitude N */
             amplitude_n: number;
-            compensation: components["schemas"]["Response"];
+            compensation: components["schemas"]["LoopResponse"];
             /** Disturbance Db */
             disturbance_db: (number | null)[];
             /** Frequencies Hz */
             frequencies_hz: (number | null)[];
-            lead: components["schemas"]["Response"];
+            lead: components["schemas"]["LoopResponse"];
             /** Load Hz */
             load_hz: number;
-            low_pass: components["schemas"]["Response"];
+            low_pass: components["schemas"]["LoopResponse"];
             /** Mean N */
             mean_n: number;
-            notch: components["schemas"]["Response"];
+            notch: components["schemas"]["LoopResponse"];
             tuning: components["schemas"]["Tuning"] | null;
-            whole: components["schemas"]["Response"];
+            whole: components["schemas"]["LoopResponse"];
             with_branch: components["schemas"]["LoopBeside"];
             without_branch: components["schemas"]["LoopBeside"];
         };
@@ -3118,7 +3114,7 @@ export interface components {
          */
         ControllerCheck: {
             compensator: components["schemas"]["CompensatorSheet"] | null;
-            difference: components["schemas"]["app__revisions__schemas__Difference"] | null;
+            difference: components["schemas"]["SettingsDifference"] | null;
             /** Errors */
             errors: components["schemas"]["FaultOut"][];
             loop: components["schemas"]["LinearSheet"] | null;
@@ -3148,6 +3144,29 @@ export interface components {
             revision: number;
             /** Why */
             why: string;
+        };
+        /**
+         * ControllerPreview
+         * @description A preview that is under way, or what came of it.
+         */
+        ControllerPreview: {
+            /** Id */
+            id: string;
+            /**
+             * Made At
+             * Format: date-time
+             */
+            made_at: string;
+            /** Reason */
+            reason: string | null;
+            result: components["schemas"]["Previewed"] | null;
+            /** Seconds Left */
+            seconds_left: number | null;
+            /** Share */
+            share: number;
+            state: components["schemas"]["JobState"];
+            /** Title */
+            title: string;
         };
         /**
          * ControllerRevisionOut
@@ -3383,6 +3402,20 @@ export interface components {
             sentence: string;
             /** Verdict */
             verdict: string;
+        };
+        /**
+         * Difference
+         * @description What two revisions differ in; `text` is the unified difference of their YAML.
+         */
+        Difference: {
+            /** Changes */
+            changes: components["schemas"]["ChangeOut"][];
+            /** From */
+            from: number;
+            /** Text */
+            text: string;
+            /** To */
+            to: number;
         };
         /**
          * DifferenceOut
@@ -3763,16 +3796,6 @@ export interface components {
          * @enum {string}
          */
         Extent: "brief" | "full";
-        /**
-         * Extreme
-         * @description Where a gain is greatest or least.
-         */
-        Extreme: {
-            /** Frequency Hz */
-            frequency_hz: number;
-            /** Gain Db */
-            gain_db: number;
-        };
         /**
          * ExtremesOut
          * @description What a Bode diagram is asked for first; null where there is none within the frequencies measured.
@@ -4609,37 +4632,6 @@ export interface components {
             knowingly_weaker: string[];
         };
         /**
-         * Item
-         * @description Something with a type plate.
-         */
-        Item: {
-            /**
-             * Maker
-             * @default
-             */
-            maker: string;
-            /**
-             * Name
-             * @default
-             */
-            name: string;
-            /**
-             * Notes
-             * @default
-             */
-            notes: string;
-            /**
-             * Part Number
-             * @default
-             */
-            part_number: string;
-            /**
-             * Serial Number
-             * @default
-             */
-            serial_number: string;
-        };
-        /**
          * JobOut
          * @description How far long work is; `reason` says why nothing came of it.
          */
@@ -4689,6 +4681,16 @@ export interface components {
             unit: string;
             /** Value */
             value: number | null;
+        };
+        /**
+         * LabLimits
+         * @description What the lab lets tests ask of this rig and unit, within what the rig can do; None for no limit of its own.
+         */
+        LabLimits: {
+            /** Displacement M */
+            displacement_m?: number | null;
+            /** Force N */
+            force_n?: number | null;
         };
         /**
          * Layer
@@ -5041,8 +5043,8 @@ export interface components {
         LoopAt: {
             /** Amplitude N */
             amplitude_n: number;
-            closed_loop: components["schemas"]["Response"];
-            dip: components["schemas"]["Extreme"];
+            closed_loop: components["schemas"]["LoopResponse"];
+            dip: components["schemas"]["LoopExtreme"];
             /** K 1 N */
             k_1_n: number;
             /** K 2 N S M */
@@ -5050,8 +5052,8 @@ export interface components {
             margins: components["schemas"]["MarginsOut"];
             /** Mean N */
             mean_n: number;
-            open_loop: components["schemas"]["Response"];
-            peak: components["schemas"]["Extreme"];
+            open_loop: components["schemas"]["LoopResponse"];
+            peak: components["schemas"]["LoopExtreme"];
             /** Tau S */
             tau_s: number;
         };
@@ -5061,7 +5063,17 @@ export interface components {
          */
         LoopBeside: {
             margins: components["schemas"]["MarginsOut"];
-            response: components["schemas"]["Response"];
+            response: components["schemas"]["LoopResponse"];
+        };
+        /**
+         * LoopExtreme
+         * @description Where a gain is greatest or least.
+         */
+        LoopExtreme: {
+            /** Frequency Hz */
+            frequency_hz: number;
+            /** Gain Db */
+            gain_db: number;
         };
         /**
          * LoopHealth
@@ -5096,6 +5108,16 @@ export interface components {
             wakeup_latency_p50_s: number | null;
             /** Wakeup Latency P99 S */
             wakeup_latency_p99_s: number | null;
+        };
+        /**
+         * LoopResponse
+         * @description A frequency response at the frequencies of its sheet; the phase goes on beyond ±180°.
+         */
+        LoopResponse: {
+            /** Gain Db */
+            gain_db: (number | null)[];
+            /** Phase Deg */
+            phase_deg: (number | null)[];
         };
         /**
          * LoopTiming
@@ -5173,7 +5195,7 @@ export interface components {
         };
         /**
          * MarginsOut
-         * @description Of an open loop; null where it does not cross.
+         * @description Of an open loop; null where it does not cross. The gain margin is at `turnover_hz`.
          */
         MarginsOut: {
             /** Crossover Hz */
@@ -5182,6 +5204,8 @@ export interface components {
             gain_margin_db: number | null;
             /** Phase Margin Deg */
             phase_margin_deg: number | null;
+            /** Turnover Hz */
+            turnover_hz: number | null;
             /** Worst Sensitivity */
             worst_sensitivity: number;
         };
@@ -5560,6 +5584,36 @@ export interface components {
             test_id: string;
         };
         /**
+         * PreviewOut
+         * @description The setpoints of a window, bin by bin, and what the whole test comes to.
+         */
+        PreviewOut: {
+            /** Block */
+            block: number[];
+            /** Decimated */
+            decimated: boolean;
+            /** Displacement Max M */
+            displacement_max_m: number[];
+            /** Displacement Min M */
+            displacement_min_m: number[];
+            /** Duration S */
+            duration_s: number;
+            /** Force Max N */
+            force_max_n: number[];
+            /** Force Min N */
+            force_min_n: number[];
+            /** From S */
+            from_s: number;
+            outline: components["schemas"]["Outline"];
+            peaks: components["schemas"]["app__definitions__preview__Peaks"];
+            /** Shortened */
+            shortened: boolean;
+            /** Time S */
+            time_s: number[];
+            /** To S */
+            to_s: number;
+        };
+        /**
          * PreviewSide
          * @description The test under one controller; `revision` is null for the draft.
          *
@@ -5570,8 +5624,8 @@ export interface components {
             error_peak_n: number | null;
             /** Error Rms N */
             error_rms_n: number | null;
-            force_command_n: components["schemas"]["app__controller__preview_schemas__Band"];
-            force_n: components["schemas"]["app__controller__preview_schemas__Band"];
+            force_command_n: components["schemas"]["Stretches"];
+            force_n: components["schemas"]["Stretches"];
             /** Measurements */
             measurements: components["schemas"]["BlockMeasured"][];
             /** Nearest */
@@ -5784,7 +5838,7 @@ export interface components {
          * @description What to change, which channels to see in how many stretches, and how long to wait for it.
          */
         RerunAsked: {
-            change: components["schemas"]["Change-Input"];
+            change: components["schemas"]["Change"];
             /**
              * Channels
              * @default [
@@ -5827,16 +5881,6 @@ export interface components {
             /** Text */
             text: string[];
             unchanged: components["schemas"]["CourseOut"];
-        };
-        /**
-         * Response
-         * @description A frequency response at the frequencies of its sheet; the phase goes on beyond ±180°.
-         */
-        Response: {
-            /** Gain Db */
-            gain_db: (number | null)[];
-            /** Phase Deg */
-            phase_deg: (number | null)[];
         };
         /**
          * ResponseFrame
@@ -6043,6 +6087,23 @@ export interface components {
             why: string;
         };
         /**
+         * RevisionSummary
+         * @description A revision in the list.
+         */
+        RevisionSummary: {
+            /** Author */
+            author: string;
+            /** Comment */
+            comment: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Number */
+            number: number;
+        };
+        /**
          * RigCommand
          * @description What an operator may ask of the rig. Starting a run is its own request.
          * @enum {string}
@@ -6116,7 +6177,7 @@ export interface components {
              */
             lab: string;
             /** @default {} */
-            limits: components["schemas"]["app__rig_configuration__configuration__Limits"];
+            limits: components["schemas"]["LabLimits"];
             model?: components["schemas"]["RigParameters"];
             /**
              * @default {
@@ -6127,7 +6188,7 @@ export interface components {
              *       "serial_number": ""
              *     }
              */
-            rig: components["schemas"]["Item"];
+            rig: components["schemas"]["TypePlate"];
             /**
              * @default {
              *       "maker": "",
@@ -6137,7 +6198,7 @@ export interface components {
              *       "serial_number": ""
              *     }
              */
-            unit_under_test: components["schemas"]["Item"];
+            unit_under_test: components["schemas"]["TypePlate"];
         };
         /**
          * RigConfigurationOut
@@ -6207,7 +6268,7 @@ export interface components {
             /** Injected */
             injected: string[];
             lease: components["schemas"]["LeaseOut"] | null;
-            limits: components["schemas"]["app__rigs__schemas__Limits"];
+            limits: components["schemas"]["Limits"];
             loop: components["schemas"]["LoopHealth"];
             mode: components["schemas"]["ModeWord"];
             /** Mode Since S */
@@ -6432,7 +6493,7 @@ export interface components {
         RunSamples: {
             /** Channels */
             channels: {
-                [key: string]: components["schemas"]["app__runs__schemas__Band"];
+                [key: string]: components["schemas"]["Band"];
             };
             /** Decimated */
             decimated: boolean;
@@ -6782,6 +6843,49 @@ export interface components {
             seed: number;
         };
         /**
+         * SettingsChange
+         * @description A value that differs; null for one that is not there.
+         */
+        SettingsChange: {
+            /** After */
+            after: boolean | number | string | null;
+            /** Before */
+            before: boolean | number | string | null;
+            /** Path */
+            path: string;
+            /** Unit */
+            unit: string | null;
+        };
+        /**
+         * SettingsDifference
+         * @description What two revisions differ in; null for one that is not stored.
+         */
+        SettingsDifference: {
+            /** Before */
+            before: number | null;
+            /** Changes */
+            changes: components["schemas"]["SettingsChange"][];
+            /** To */
+            to: number | null;
+        };
+        /**
+         * SettingsRevision
+         * @description A revision that was once in force: by whom, when and why.
+         */
+        SettingsRevision: {
+            /** Author */
+            author: string;
+            /**
+             * Created At
+             * Format: date-time
+             */
+            created_at: string;
+            /** Number */
+            number: number;
+            /** Why */
+            why: string;
+        };
+        /**
          * Shape
          * @description Of a distribution.
          * @enum {string}
@@ -6943,6 +7047,16 @@ export interface components {
          * @enum {string}
          */
         StorageWord: "ok" | "low" | "full";
+        /**
+         * Stretches
+         * @description Least and greatest value over each stretch of time.
+         */
+        Stretches: {
+            /** Max */
+            max: number[];
+            /** Min */
+            min: number[];
+        };
         /**
          * Structure
          * @description Masses (kg), stiffnesses (N/m) and dampings (N s/m) of the chain, in the paper's names.
@@ -7511,6 +7625,37 @@ export interface components {
             phase_deg: number;
         };
         /**
+         * TypePlate
+         * @description Something with a type plate.
+         */
+        TypePlate: {
+            /**
+             * Maker
+             * @default
+             */
+            maker: string;
+            /**
+             * Name
+             * @default
+             */
+            name: string;
+            /**
+             * Notes
+             * @default
+             */
+            notes: string;
+            /**
+             * Part Number
+             * @default
+             */
+            part_number: string;
+            /**
+             * Serial Number
+             * @default
+             */
+            serial_number: string;
+        };
+        /**
          * UncertaintyOut
          * @description How well the force was measured, at any instant; expanded uncertainties have the factor `coverage`.
          */
@@ -7687,67 +7832,6 @@ export interface components {
             to_s: number;
         };
         /**
-         * Difference
-         * @description What two revisions differ in; `text` is the unified difference of their YAML.
-         */
-        app__catalogue__schemas__Difference: {
-            /** Changes */
-            changes: components["schemas"]["ChangeOut"][];
-            /** From */
-            from: number;
-            /** Text */
-            text: string;
-            /** To */
-            to: number;
-        };
-        /**
-         * PreviewOut
-         * @description The setpoints of a window, bin by bin, and what the whole test comes to.
-         */
-        app__catalogue__schemas__PreviewOut: {
-            /** Block */
-            block: number[];
-            /** Decimated */
-            decimated: boolean;
-            /** Displacement Max M */
-            displacement_max_m: number[];
-            /** Displacement Min M */
-            displacement_min_m: number[];
-            /** Duration S */
-            duration_s: number;
-            /** Force Max N */
-            force_max_n: number[];
-            /** Force Min N */
-            force_min_n: number[];
-            /** From S */
-            from_s: number;
-            outline: components["schemas"]["Outline"];
-            peaks: components["schemas"]["app__definitions__preview__Peaks"];
-            /** Shortened */
-            shortened: boolean;
-            /** Time S */
-            time_s: number[];
-            /** To S */
-            to_s: number;
-        };
-        /**
-         * RevisionSummary
-         * @description A revision in the list.
-         */
-        app__catalogue__schemas__RevisionSummary: {
-            /** Author */
-            author: string;
-            /** Comment */
-            comment: string;
-            /**
-             * Created At
-             * Format: date-time
-             */
-            created_at: string;
-            /** Number */
-            number: number;
-        };
-        /**
          * ChannelOut
          * @description One channel of all runs.
          */
@@ -7777,39 +7861,6 @@ export interface components {
             settings: components["schemas"]["SettingRow"][];
             /** Settings In All */
             settings_in_all: number;
-        };
-        /**
-         * Band
-         * @description Least and greatest value over each stretch of time.
-         */
-        app__controller__preview_schemas__Band: {
-            /** Max */
-            max: number[];
-            /** Min */
-            min: number[];
-        };
-        /**
-         * PreviewOut
-         * @description A preview that is under way, or what came of it.
-         */
-        app__controller__preview_schemas__PreviewOut: {
-            /** Id */
-            id: string;
-            /**
-             * Made At
-             * Format: date-time
-             */
-            made_at: string;
-            /** Reason */
-            reason: string | null;
-            result: components["schemas"]["Previewed"] | null;
-            /** Seconds Left */
-            seconds_left: number | null;
-            /** Share */
-            share: number;
-            state: components["schemas"]["JobState"];
-            /** Title */
-            title: string;
         };
         /**
          * Peaks
@@ -7856,45 +7907,6 @@ export interface components {
             velocity_m_s: number | null;
         };
         /**
-         * Difference
-         * @description What two revisions differ in; null for one that is not stored.
-         */
-        app__revisions__schemas__Difference: {
-            /** Before */
-            before: number | null;
-            /** Changes */
-            changes: components["schemas"]["Change-Output"][];
-            /** To */
-            to: number | null;
-        };
-        /**
-         * RevisionSummary
-         * @description A revision that was once in force: by whom, when and why.
-         */
-        app__revisions__schemas__RevisionSummary: {
-            /** Author */
-            author: string;
-            /**
-             * Created At
-             * Format: date-time
-             */
-            created_at: string;
-            /** Number */
-            number: number;
-            /** Why */
-            why: string;
-        };
-        /**
-         * Limits
-         * @description What the lab lets tests ask of this rig and unit, within what the rig can do; None for no limit of its own.
-         */
-        app__rig_configuration__configuration__Limits: {
-            /** Displacement M */
-            displacement_m?: number | null;
-            /** Force N */
-            force_n?: number | null;
-        };
-        /**
          * ChannelOut
          * @description A channel of the telemetry; `dtype` as NumPy writes it.
          */
@@ -7907,32 +7919,6 @@ export interface components {
             name: string;
             /** Unit */
             unit: string;
-        };
-        /**
-         * Limits
-         * @description What the detectors in force allow; the supply's is what the pump gives. Null for no limit.
-         */
-        app__rigs__schemas__Limits: {
-            /** Displacement M */
-            displacement_m: number | null;
-            /** Force Error N */
-            force_error_n: number | null;
-            /** Force N */
-            force_n: number | null;
-            /** Supply Pressure Pa */
-            supply_pressure_pa: number | null;
-            /** Velocity M S */
-            velocity_m_s: number | null;
-        };
-        /**
-         * Band
-         * @description Least and greatest value at each time; null where the channel was not a number.
-         */
-        app__runs__schemas__Band: {
-            /** Max */
-            max: (number | null)[];
-            /** Min */
-            min: (number | null)[];
         };
         /**
          * Comparison
@@ -8425,7 +8411,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__revisions__schemas__Difference"];
+                    "application/json": components["schemas"]["SettingsDifference"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -8458,7 +8444,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__controller__preview_schemas__PreviewOut"];
+                    "application/json": components["schemas"]["ControllerPreview"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -8489,7 +8475,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__controller__preview_schemas__PreviewOut"];
+                    "application/json": components["schemas"]["ControllerPreview"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -8520,7 +8506,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__controller__preview_schemas__PreviewOut"];
+                    "application/json": components["schemas"]["ControllerPreview"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -8553,7 +8539,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__revisions__schemas__RevisionSummary"][];
+                    "application/json": components["schemas"]["SettingsRevision"][];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -9966,7 +9952,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__revisions__schemas__Difference"];
+                    "application/json": components["schemas"]["SettingsDifference"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -9999,7 +9985,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__revisions__schemas__RevisionSummary"][];
+                    "application/json": components["schemas"]["SettingsRevision"][];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -11658,7 +11644,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__catalogue__schemas__PreviewOut"];
+                    "application/json": components["schemas"]["PreviewOut"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -11924,7 +11910,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__catalogue__schemas__Difference"];
+                    "application/json": components["schemas"]["Difference"];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -12030,7 +12016,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__catalogue__schemas__RevisionSummary"][];
+                    "application/json": components["schemas"]["RevisionSummary"][];
                 };
             };
             /** @description A problem document (RFC 9457) */
