@@ -12,7 +12,7 @@ from app.reports.subject import Subject
 from app.runs.response_schemas import ModelCurve, ResponseOut, ResponseSeries
 
 MOST_ROWS = 120
-LEAST_GAIN = 1e-30
+LEAST_GAIN, STILL = 1e-30, 1e-20
 WIDE_DB = 60.0  # an interval that reaches farther says nothing
 
 
@@ -20,8 +20,14 @@ def response(subject: Subject) -> Section | None:
     """Nothing where the test measures none."""
     if subject.found is None:
         return None
-    items = [item for found in subject.found.responses for item in _of_transfer(found)]
+    told = [found for found in subject.found.responses if _moves(found)]
+    items = [item for found in told for item in _of_transfer(found)]
     return Section("Frequency response", tuple(items)) if items else None
+
+
+def _moves(found: ResponseOut) -> bool:
+    """Whether there is anything in it: a unit that stands still has no response."""
+    return any(p.gain > STILL for series in found.series for p in series.points)
 
 
 def _of_transfer(found: ResponseOut) -> Iterator[Item]:

@@ -2,13 +2,15 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from app.reports.figures.style import ASKED, GREY, MEASURED, PREDICTED
 from app.reports.figures.time import Panel, time_figure
 from app.reports.numbers import duration
 from app.reports.report import Figure, Item, Section, Words
 from app.reports.subject import Subject
 from app.reports.telling import SHOWN_S, Moment, moment_of_run
-from app.reports.views import View, predicted_view, view
+from app.reports.views import Floats, View, predicted_view, view
 
 CHANNELS = (
     *("force_n", "force_command_n", "force_error_n", "displacement_m", "displacement_command_m"),
@@ -50,7 +52,9 @@ def near(subject: Subject, from_s: float, to_s: float | None, caption: str) -> F
 
 def _whole(subject: Subject, lasts_s: float) -> Figure:
     seen = view(subject, CHANNELS)
-    panels = [_force(subject, seen, 0.0, None), _error(seen), _motion(seen), _valve(seen)]
+    panels = [_force(subject, seen, 0.0, None), _error(seen)]
+    panels += [_motion(seen)] if moves(seen.low["displacement_command_m"]) else []
+    panels.append(_valve(seen))
     panels.append(
         Panel(
             "Pressure (bar)",
@@ -90,6 +94,11 @@ def _motion(seen: View) -> Panel:
         seen.trace("displacement_command_m", "command", ASKED, ":"),
     ]
     return Panel("Unit (mm)", traces)
+
+
+def moves(values: Floats) -> bool:
+    """Whether a channel does anything at all."""
+    return len(values) > 0 and bool(np.nanmax(values) > np.nanmin(values))
 
 
 def _marks(subject: Subject) -> Sequence[tuple[float, str]]:
