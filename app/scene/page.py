@@ -19,8 +19,10 @@ _LOADER = re.compile(
     re.DOTALL,
 )
 _DIGITS = "".join(chr(c) for c in range(0x21, 0x7F) if chr(c) not in "\"&<>'`")
-# The panel of viser's own: what it would offer, the console's page has.
-_OWN_STYLE = "<style>[data-floating-window] { display: none !important }</style>"
+# viser's own panel and notices: what they would offer, the console's page has.
+_OWN_STYLE = (
+    "<style>.mantine-Paper-root, .mantine-Notifications-root { display: none !important }</style>"
+)
 
 
 class ScenePage(NamedTuple):
