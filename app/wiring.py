@@ -189,7 +189,7 @@ class Console:
         self.scene = Scene(
             settings.data_dir,
             lambda: self.link.life,
-            lambda: presets.rig,
+            lambda: self.rig_configurations.in_force.document.model,
             Moments(self.database, self.run_windows),
         )
         self.system = System(

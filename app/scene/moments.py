@@ -8,11 +8,11 @@ from app.db import Database
 from app.definitions.limits import RIG
 from app.errors import Code, Refusal
 from app.link.life import Life
+from app.rig_configuration.record import model_of
 from app.runs import repository
 from app.runs.samples import RunWindows
 from app.scene.chain import Chain, Reading
 from app.scene.telling import Moment
-from rtcore.rig.parameters import RigParameters
 
 
 def reading_now(life: Life | None) -> Reading:
@@ -47,4 +47,4 @@ class Moments:
         with self._database.reading() as session:
             run = repository.get(session, run_id)
             rig = {} if run is None else dict(run.rig)
-        return Moment(Chain.of(RigParameters.model_validate(rig)), _reading(values))
+        return Moment(Chain.of(model_of(rig)), _reading(values))
