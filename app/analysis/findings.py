@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from app.analysis.sine_responses import Required
 from app.analysis.sines import FoundSine
 from app.analysis.step_response import StepResponse
 from app.analysis.tally import Tally
@@ -71,6 +72,7 @@ class Findings:
     cycles: CycleStatistics = field(default_factory=CycleStatistics)
     steps: StepStatistics = field(default_factory=StepStatistics)
     sines: Sequence[FoundSine] = ()
+    required: Sequence[Required] = ()  # of the responses at the sines
     has_cycles: bool = False  # whether it counts cycles, reached or not
     period_s: float = 0.0
 

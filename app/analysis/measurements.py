@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from app.analysis.findings import CycleStatistics, Findings
+from app.analysis.sine_responses import gain_db, least_of, share_met
 from app.analysis.step_response import StepResponse
 
 
@@ -30,6 +31,11 @@ def _of_steps(read: Callable[[StepResponse], float]) -> Callable[[Findings], flo
 
 def _cycles(found: Findings) -> float | None:
     return float(found.cycles.count) if found.has_cycles else None
+
+
+def _of_several(found: Findings, read: Callable[[list[float]], float]) -> float | None:
+    gains = [gain_db(sine) for sine in found.sines]
+    return read(gains) if len(gains) > 1 else None
 
 
 def _delay_s(found: Findings) -> float | None:
@@ -69,6 +75,36 @@ _TABLE = (
         "Harmonics 2 to 10 of the force, below half the loop rate, in % of the first; of several "
         "sines the largest",
         lambda found: found.worst_sine(lambda sine: sine.distortion_percent),
+    ),
+    Measurement(
+        "response_peak_db",
+        "dB",
+        "Greatest gain from setpoint to force at any of several sines",
+        lambda found: _of_several(found, lambda gains: max(gains)),
+    ),
+    Measurement(
+        "response_least_db",
+        "dB",
+        "Least gain from setpoint to force at any of several sines",
+        lambda found: _of_several(found, lambda gains: min(gains)),
+    ),
+    Measurement(
+        "bandwidth_minus_3_db_hz",
+        "Hz",
+        "Lowest frequency, between sines of one amplitude, at which the gain falls below -3 dB",
+        lambda found: least_of(found.sines, lambda extremes: extremes.minus_3_db_hz),
+    ),
+    Measurement(
+        "phase_minus_90_deg_hz",
+        "Hz",
+        "Lowest frequency, between sines of one amplitude, at which the force lags by 90°",
+        lambda found: least_of(found.sines, lambda extremes: extremes.minus_90_deg_hz),
+    ),
+    Measurement(
+        "bands_met",
+        "1",
+        "Share of the sines within the required bands of a frequency response that meet them",
+        lambda found: share_met(found.sines, found.required),
     ),
     Measurement("cycles", "1", "Cycles at full amplitude that are over", _cycles, grows=True),
     Measurement(

@@ -1,6 +1,6 @@
 """Measures a run in one pass over its chunks, with memory that does not grow with its length."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from app.analysis.cycles import CycleReader
@@ -8,6 +8,7 @@ from app.analysis.evidence import Kind, Stretch
 from app.analysis.findings import CycleStatistics, Findings, StepStatistics
 from app.analysis.measurements import Values, nothing, read_all
 from app.analysis.predicted import Predicted
+from app.analysis.sine_responses import Required
 from app.analysis.sines import FoundSine, SineFit
 from app.analysis.step_response import StepFollower
 from app.analysis.tally import Tally, Tallying
@@ -50,6 +51,7 @@ class Measuring:
         predicted: Predicted | None = None,
         first_tick: int | None = None,
         counts_cycles: bool = True,
+        required: Sequence[Required] = (),
     ) -> None:
         """`first_tick` is that of the run, where it is not that of its first record.
 
@@ -59,6 +61,7 @@ class Measuring:
         self._walk = Walk(stretches, period_s, first_tick)
         self._period_s = period_s
         self._counts_cycles = counts_cycles
+        self._required = required
         self._predicted = predicted
         self._tallying = Tallying(valve_limit)
         self._sines = SineFit(period_s)
@@ -122,10 +125,14 @@ class Measuring:
         data = block.counted if block.counts else block.data
         sines = self._sines.of_block(number)
         whole, cycles, steps = block.whole, block.cycles, block.steps
-        return Findings(whole, data, cycles, steps, sines, block.counts, self._period_s)
+        return Findings(
+            whole, data, cycles, steps, sines, self._required, block.counts, self._period_s
+        )
 
     def _of_run(self) -> Findings:
-        found = Findings(has_cycles=self._counts_cycles, period_s=self._period_s)
+        found = Findings(
+            required=self._required, has_cycles=self._counts_cycles, period_s=self._period_s
+        )
         for block in self._blocks.values():
             found.whole.add(block.whole)
             found.data.add(block.counted if self._counts_cycles else block.data)

@@ -172,9 +172,14 @@ class _OfBlock:
 
 
 def is_sure(point: ResponsePoint, asked: Confidence) -> bool:
-    """Whether a point's 95 % interval is within what was asked for."""
+    """Whether a point is settled and its 95 % interval within what was asked for."""
     low, high = point.gain_95
-    if point.cycles < LEAST_CYCLES or not 0 < low <= point.gain or not math.isfinite(high):
+    if (
+        not point.settled
+        or point.cycles < LEAST_CYCLES
+        or not 0 < low <= point.gain
+        or not math.isfinite(high)
+    ):
         return False
     wide_db = max(_db(high / point.gain), _db(point.gain / low))
     wide_deg = 0.5 * (point.phase_95_deg.high - point.phase_95_deg.low)

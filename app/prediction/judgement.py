@@ -10,10 +10,12 @@ from app.analysis.acceptance import Verdict, judge, overall
 from app.analysis.measurements import MEASUREMENTS, Values
 from app.analysis.measuring import Measured, Measuring
 from app.analysis.predicted import Predicted
+from app.analysis.sine_responses import Required
 from app.analysis.walk import Columns, Walk
 from app.definitions.definition import Criterion, Definition
 from app.definitions.nodes import force_nodes
 from app.definitions.pieces import Node, Piece
+from app.definitions.responses import FrequencyResponse
 from app.definitions.windows import stretches
 
 NEEDS_REFERENCE = "goodness_of_fit"
@@ -67,7 +69,18 @@ def measuring(
         predicted=predicted,
         first_tick=first_tick,
         counts_cycles=any(_counts(block) for block in nodes),
+        required=required_of(definition),
     )
+
+
+def required_of(definition: Definition) -> list[Required]:
+    """The bands that the frequency responses of a definition are required to keep to."""
+    return [
+        Required(number, **band.model_dump())
+        for number, block in enumerate(definition.blocks)
+        if isinstance(block, FrequencyResponse)
+        for band in block.bands
+    ]
 
 
 def judge_measured(definition: Definition, measured: Measured, *, completed: bool) -> Judged:

@@ -32,13 +32,19 @@ class Passage(NamedTuple):
 
 
 def passages(events: Sequence[RunEvent], first_tick: int, ticks: int, fade: int) -> list[Passage]:
-    """Where in a run of so many ticks its program went on: a hold, and the fade after it, put it off."""
+    """Where in a run of so many ticks its program went on: a hold, and the fade after it, put it off.
+
+    Where it was skipped, it went on further on.
+    """
     found: list[Passage] = []
     begun, shift, held_at = 0, 0, None
     for event in events:
+        at = event.tick - first_tick
+        if event.kind == "skipped" and held_at is None:
+            found.append(Passage(begun, max(begun, at), shift))
+            begun, shift = max(begun, at), shift - round(event.value or 0.0)
         if event.kind != "mode":
             continue
-        at = event.tick - first_tick
         if event.code == Mode.HOLDING.name.lower() and held_at is None:
             held_at = at
             found.append(Passage(begun, max(begun, at), shift))
