@@ -17,7 +17,7 @@ from app.analysis.response.curve import Curve
 from app.analysis.response.periods import Realisation
 from rtcore.compiled import Array
 
-NEAREST = 8  # lines left out that tell the distortion of an excited one
+NEAREST = 6  # lines left out that tell the distortion of an excited one
 
 
 @dataclass(frozen=True)
@@ -82,9 +82,11 @@ def fast(
         at = np.interp(left_out, excited, gain.real) + 1j * np.interp(left_out, excited, gain.imag)
         u, y = _lines_of(r, input, left_out), _lines_of(r, output, left_out)
         scatter = _scatter(r, input, output, left_out, at) / r.periods
-        odd = _nearby(np.abs(y - at * u) ** 2, left_out, excited)
-        own = _nearby(np.where(np.isnan(scatter), 0.0, scatter), left_out, excited)
-        size = np.abs(_lines_of(r, input, excited)) ** 2
+        # As a share of the gain it changes little from line to line, even where the gain does.
+        odd = _nearby(np.abs((y - at * u) / at) ** 2, left_out, excited)
+        own = np.where(np.isnan(scatter), 0.0, scatter) / np.abs(at) ** 2
+        own = _nearby(own, left_out, excited)
+        size = np.abs(_lines_of(r, input, excited) / gain) ** 2
         gains.append(gain)
         noises.append(noise)
         odds.append(np.stack([odd, own]) / size)

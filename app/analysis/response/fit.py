@@ -24,7 +24,7 @@ from app.analysis.response.point import Interval
 from app.analysis.response.settling import Drift, drift_of, is_unlikely, power_of
 from rtcore.compiled import Array
 
-MOST_LINES = 8  # on each side: 32 degrees of freedom, a factor of 2.04
+MOST_LINES = 3  # on each side: 12 degrees of freedom; more would look further than noise is smooth
 HALF_A_TICK = 0.5  # a whole cycle may end between ticks
 LEAST_SHARE = 1e-9  # of the mean: less is what rounding leaves of a channel that stands still
 
