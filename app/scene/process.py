@@ -12,7 +12,7 @@ from typing import Self
 from app.scene.telling import LiveTold, Told, line
 
 START_LIMIT_S = 60.0
-SILENT_S = 15.0  # at a low priority, on a busy machine
+SILENT_S = 10.0  # at a low priority, on a busy machine
 MOST_UNREAD_BYTES = 65_536  # of what is told: then the rig now is left out, as it is old at once
 END_LIMIT_S = 2.0
 

@@ -19,7 +19,7 @@ VIEWER = {  # what computes and changes nothing, what stops the rig, and what is
     *("checkTest", "previewTest", "readSpectrum", "predictText", "predictTest"),
     *("commandRig", "signOut", "setPassword", "getTicket"),
     *("makeToken", "revokeToken", "endSession"),
-    *("checkInterlocks", "replayFirstOut", "rerunFirstOut"),
+    *("checkInterlocks", "replayFirstOut", "rerunFirstOut", "pointScene"),
     *("exportRun", "removeExport"),
 }
 ENGINEER = {
