@@ -20,10 +20,14 @@ export interface BodePoint {
 export interface Extreme {
   readonly frequency_hz: number;
   readonly gain_db: number;
+  /** What is said instead of the figures, such as a margin. */
+  readonly text?: string;
 }
 
 export interface BodeSeries {
   readonly label: string;
+  /** A line without marks: what is calculated, not measured. */
+  readonly line?: boolean;
   readonly points: readonly BodePoint[];
   readonly extremes?: readonly Extreme[];
 }
@@ -227,8 +231,8 @@ export function frequencyText(hz: number): string {
 }
 
 /** `+3.6 dB at 35 Hz`. */
-export const extremeText = ({ frequency_hz, gain_db }: Extreme): string =>
-  `${decibels(gain_db)} at ${frequencyText(frequency_hz)}`;
+export const extremeText = ({ frequency_hz, gain_db, text }: Extreme): string =>
+  text ?? `${decibels(gain_db)} at ${frequencyText(frequency_hz)}`;
 
 /** A gain as the cursor reads it: in dB, or in its unit with four figures. */
 export function gainText(data: Pick<BodeData, "unit" | "decibels">, gain: number): string {
