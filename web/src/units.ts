@@ -127,6 +127,15 @@ export function duration(seconds: number | null | undefined): string {
   return hours > 0 ? `${hours}:${two(minutes)}:${two(rest)}\u00a0h` : `${minutes}:${two(rest)}\u00a0min`;
 }
 
+/** Bytes as a file manager shows them: `1.6 GB`. */
+export function bytes(value: number | null | undefined): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return NOTHING;
+  const step = [1e9, 1e6, 1e3].find((unit) => value >= unit) ?? 1;
+  const symbol = { 1e9: "GB", 1e6: "MB", 1e3: "kB", 1: "bytes" }[String(step)] ?? "bytes";
+  const shown = value / step;
+  return `${shown.toFixed(step > 1 && shown < 100 ? 1 : 0)}\u00a0${symbol}`;
+}
+
 /** Very short times of the loop, in whole microseconds: `9 µs`. */
 export function microseconds(seconds: number | null | undefined): string {
   if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return NOTHING;

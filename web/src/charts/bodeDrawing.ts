@@ -1,7 +1,7 @@
 // What one panel of a frequency response is made of, on canvas: bands, models, series with their intervals, call-outs.
 
 import type uPlot from "uplot";
-import type { BodeModel, Dot, Panel } from "./bode";
+import type { BodeModel, BodeSeries, Dot, Panel } from "./bode";
 import { place } from "./callouts";
 import { colour } from "./colours";
 import { fontSize } from "./options";
@@ -73,10 +73,10 @@ export function drawModels(plot: uPlot, { models }: Panel, of: readonly BodeMode
 }
 
 /** Each series with its intervals; the point at the cursor stands out. */
-export function drawSeries(plot: uPlot, panel: Panel, at_hz: number | null): void {
+export function drawSeries(plot: uPlot, panel: Panel, of: readonly BodeSeries[], at_hz: number | null): void {
   within(plot, (ctx, places) => {
     if (at_hz !== null) drawCursor(ctx, plot, places.x(at_hz));
-    panel.series.forEach((dots, i) => drawOne(ctx, places, dots, i, at_hz));
+    panel.series.forEach((dots, i) => drawOne(ctx, places, dots, i, { at_hz, line: of[i]?.line ?? false }));
   });
 }
 
@@ -96,12 +96,13 @@ function drawOne(
   places: Places,
   dots: readonly Dot[],
   index: number,
-  at_hz: number | null,
+  { at_hz, line }: { at_hz: number | null; line: boolean },
 ): void {
   if (dots.length === 0) return;
   const { x, y } = places;
   const across = x(dots.at(-1)!.hz) - x(dots[0]!.hz);
-  const sparse = across / Math.max(1, dots.length - 1) >= APART_PX * devicePixelRatio || dots.length === 1;
+  const apart = across / Math.max(1, dots.length - 1) >= APART_PX * devicePixelRatio;
+  const sparse = !line && (apart || dots.length === 1);
   ctx.strokeStyle = ctx.fillStyle = colour(seriesColour(index));
   if (sparse) drawBars(ctx, places, dots);
   else drawInterval(ctx, places, dots);

@@ -91,7 +91,7 @@ export class BodePanel {
 
   private drawOver(plot: uPlot): void {
     drawModels(plot, this.panel, this.data.models);
-    drawSeries(plot, this.panel, this.at);
+    drawSeries(plot, this.panel, this.data.series, this.at);
     if (this.name === "gain" && this.data.decibels) drawCallouts(plot, this.named);
   }
 

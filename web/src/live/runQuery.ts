@@ -5,8 +5,11 @@ import { chartsOf, showOf } from "../charts/series";
 export const RUN_VIEWS = [
   { view: "charts", label: "Charts" },
   { view: "results", label: "Measurements" },
+  { view: "response", label: "Bode" },
+  { view: "analysis", label: "Analysis" },
   { view: "prediction", label: "Prediction" },
   { view: "settings", label: "Settings" },
+  { view: "files", label: "Report, data" },
 ] as const;
 export type RunViewName = (typeof RUN_VIEWS)[number]["view"];
 
