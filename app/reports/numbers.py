@@ -12,6 +12,7 @@ _SCALES = {  # the unit that a report uses, and how many of it one of ours is
     "Pa": ("bar", 1e-5),
     "m³/s": ("l/min", 6e4),
 }
+FINEST = 4  # places of what is in kN, mm or bar: less is noise
 _ENDINGS = (
     "_octaves_s",
     "_n_s",
@@ -60,7 +61,10 @@ def quantity(value: float | None, unit: str) -> str:
         return NOTHING
     if unit == "s":
         return duration(value)
-    return f"{digits(value * scale_of(unit))} {unit_shown(unit)}".rstrip()
+    shown = value * scale_of(unit)
+    if unit in _SCALES and math.isfinite(shown):
+        shown = round(shown, FINEST)
+    return f"{digits(shown)} {unit_shown(unit)}".rstrip()
 
 
 def duration(seconds: float | None) -> str:
@@ -70,7 +74,7 @@ def duration(seconds: float | None) -> str:
     if math.isfinite(seconds) and seconds >= 120.0:
         minutes, rest = divmod(round(seconds), 60)
         hours, minutes = divmod(minutes, 60)
-        return (f"{hours} h " if hours else "") + f"{minutes:02d} min {rest:02d} s"
+        return f"{hours} h {minutes:02d} min {rest:02d} s" if hours else f"{minutes} min {rest:02d} s"
     if seconds == 0.0 or not math.isfinite(seconds):
         return f"{digits(seconds)} s"
     _, scale, unit = next(row for row in _SHORT_S if abs(seconds) >= row[0])

@@ -11,8 +11,10 @@ from jinja2 import Environment, StrictUndefined
 
 from app.errors import Code, Refusal
 from app.reports.branding import LOGO_KINDS, Branding
+from app.reports.fonts import figure_fonts
 from app.reports.report import Facts, Figure, Item, Report, Table, Words
 
+_FORMAT = {"format": "pdf", "ignore_system_fonts": True, "font_paths": [str(figure_fonts())]}
 BEFORE_ALL_TIME_S = 0  # the PDF's own date, where a run has none
 
 
@@ -26,7 +28,7 @@ def render_pdf(report: Report, branding: Branding) -> bytes | Refusal:
     world = {"main.typ": branding.typst.encode(), "report.json": _json(data), **figures}
     dated = BEFORE_ALL_TIME_S if report.dated is None else int(report.dated.timestamp())
     try:
-        made = typst.compile(world, format="pdf", ignore_system_fonts=True, timestamp=dated)  # type: ignore[call-overload]  # it takes files by name
+        made = typst.compile(world, **_FORMAT, timestamp=dated)  # type: ignore[call-overload]  # it takes files by name
     except typst.TypstError as error:
         return Refusal(Code.INVALID_REPORT, f"The report cannot be set: {_first_line(error)}")
     assert isinstance(made, bytes)

@@ -5,7 +5,8 @@ from matplotlib.figure import Figure as Canvas
 
 from app.analysis.goodness import goodness_of_fit
 from app.analysis.step_response import step_response
-from app.reports.figures.style import ASKED, GREY, MEASURED, PREDICTED, canvas, tell
+from app.reports.figures.colours import ASKED, GREY, MEASURED, PREDICTED
+from app.reports.figures.style import canvas, tell
 from app.reproduce.made import Beside, Floats, Progress, Reproduced, Sheet
 from app.reproduce.plants import bypass_off, quiet, valve_off
 from app.reproduce.playing import PERIOD_S, Played, play, times

@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.figure import Figure as Canvas
 
 from app.analysis.goodness import goodness_of_fit
-from app.reports.figures.style import ASKED, GREY, MEASURED, PREDICTED, canvas, tell
+from app.reports.figures.colours import ASKED, GREY, MEASURED, PREDICTED
+from app.reports.figures.style import canvas, tell
 from app.reproduce.made import Beside, Floats, Progress, Reproduced, Sheet
 from app.reproduce.plants import quiet
 from app.reproduce.playing import PERIOD_S, Played, fitted, play, times

@@ -3,7 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure as Canvas
 
-from app.reports.figures.style import MEASURED, canvas
+from app.reports.figures.colours import MEASURED
+from app.reports.figures.style import canvas
 from app.reproduce.made import Beside, Floats, Progress, Reproduced, Sheet
 from app.reproduce.playing import PERIOD_S, Played, fitted, play, times
 from rtcore.rig.parameters import load_rig

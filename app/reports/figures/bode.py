@@ -9,17 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure as Canvas
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
-from app.reports.figures.style import (
-    GREY,
-    INK,
-    LIMIT,
-    PALE,
-    SERIES,
-    as_svg,
-    canvas,
-    styled,
-    tell,
-)
+from app.reports.figures.colours import GREY, INK, LIMIT, PALE
+from app.reports.figures.style import SERIES, as_svg, canvas, styled, tell
 
 Floats = npt.NDArray[np.float64]
 _NONE = np.empty(0)

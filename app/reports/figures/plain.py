@@ -7,19 +7,8 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.ticker import FuncFormatter
 
-from app.reports.figures.style import (
-    GREY,
-    INK,
-    LIMIT,
-    MEASURED,
-    PALE,
-    SERIES,
-    WIDTH_MM,
-    as_svg,
-    canvas,
-    styled,
-    tell,
-)
+from app.reports.figures.colours import GREY, INK, LIMIT, MEASURED, PALE
+from app.reports.figures.style import SERIES, WIDTH_MM, as_svg, canvas, styled, tell
 
 Floats = npt.NDArray[np.float64]
 BAR_MM, AROUND_MM = 5.0, 12.0

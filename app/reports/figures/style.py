@@ -11,9 +11,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure as Canvas
 
+from app.reports.figures.colours import GREY, GRID, INK
+
 WIDTH_MM = 170.0  # the text's, on A4
-INK, GREY, PALE, GRID = "#1a1a1a", "#7d8287", "#c3c8cc", "#e3e6e8"
-MEASURED, ASKED, PREDICTED, LIMIT = "#12476b", "#1a1a1a", "#b06a00", "#a01c1c"
 SERIES = (  # colour, dash and marker: any of the three tells them apart
     ("#12476b", "-", "o"),
     ("#b06a00", "--", "s"),

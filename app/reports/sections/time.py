@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from app.reports.figures.style import ASKED, GREY, MEASURED, PREDICTED
+from app.reports.figures.colours import ASKED, GREY, MEASURED, PREDICTED
 from app.reports.figures.time import Panel, time_figure
 from app.reports.numbers import duration
 from app.reports.report import Figure, Item, Section, Words
@@ -101,9 +101,9 @@ def moves(values: Floats) -> bool:
     return len(values) > 0 and bool(np.nanmax(values) > np.nanmin(values))
 
 
-def _marks(subject: Subject) -> Sequence[tuple[float, str]]:
+def _marks(subject: Subject) -> Sequence[float]:
     """Where blocks begin, as long as they can be told apart."""
-    starts = [(event.time_s, event.text) for event in subject.events if event.kind == "block"]
+    starts = [event.time_s for event in subject.events if event.kind == "block"]
     return starts if len(starts) <= 40 else ()
 
 
