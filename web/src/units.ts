@@ -54,6 +54,7 @@ const GAINS: Readonly<Record<string, readonly [string, number]>> = {
   "1": ["", 1],
   N: ["kN", 1e-3],
   "N s/m": ["kN s/m", 1e-3],
+  "m/s": ["mm/s", 1e3],
   "m/N": ["mm/kN", 1e6],
   "N/m": ["kN/mm", 1e-6],
   "m/s/N": ["mm/s/kN", 1e6],

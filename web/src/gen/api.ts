@@ -2892,6 +2892,48 @@ export interface components {
             lease?: number | null;
         };
         /**
+         * ComparedChannel
+         * @description One channel of all runs.
+         */
+        ComparedChannel: {
+            /** Channel */
+            channel: string;
+            /** Differences */
+            differences: components["schemas"]["ComparedDifference"][];
+            /** Series */
+            series: components["schemas"]["ComparedSeries"][];
+            /** Unit */
+            unit: string;
+        };
+        /**
+         * ComparedDifference
+         * @description A run less the baseline, tick against tick, and then in bins; `tolerance` is the least of each bin.
+         *
+         *     `exceeded_share` is of the ticks that both have; null without a tolerance.
+         */
+        ComparedDifference: {
+            /** Exceeded */
+            exceeded: components["schemas"]["ExceededOut"][];
+            /** Exceeded In All */
+            exceeded_in_all: number;
+            /** Exceeded Share */
+            exceeded_share: number | null;
+            /** Max */
+            max: (number | null)[];
+            /** Min */
+            min: (number | null)[];
+            /** Peak */
+            peak: number;
+            /** Peak At */
+            peak_at: number;
+            /** Rms */
+            rms: number | null;
+            /** Run Id */
+            run_id: number;
+            /** Tolerance */
+            tolerance: (number | null)[] | null;
+        };
+        /**
          * ComparedRun
          * @description A run that is compared; `offset_s` is the time of the run at which the common axis has its zero.
          */
@@ -2923,6 +2965,32 @@ export interface components {
              * @enum {string}
              */
             verdict: "pass" | "fail" | "unset";
+        };
+        /**
+         * ComparedSeries
+         * @description Least and greatest of a run's channel at each place of the axis.
+         */
+        ComparedSeries: {
+            /** Max */
+            max: (number | null)[];
+            /** Min */
+            min: (number | null)[];
+            /** Run Id */
+            run_id: number;
+        };
+        /**
+         * ComparedValue
+         * @description A measurement of one run, by how much it differs from the baseline's, and whether that is tolerated.
+         */
+        ComparedValue: {
+            /** Difference */
+            difference: number | null;
+            /** Run Id */
+            run_id: number;
+            /** Value */
+            value: number | null;
+            /** Within */
+            within: boolean | null;
         };
         /**
          * Compensator
@@ -3416,34 +3484,6 @@ export interface components {
             text: string;
             /** To */
             to: number;
-        };
-        /**
-         * DifferenceOut
-         * @description A run less the baseline, tick against tick, and then in bins; `tolerance` is the least of each bin.
-         *
-         *     `exceeded_share` is of the ticks that both have; null without a tolerance.
-         */
-        DifferenceOut: {
-            /** Exceeded */
-            exceeded: components["schemas"]["ExceededOut"][];
-            /** Exceeded In All */
-            exceeded_in_all: number;
-            /** Exceeded Share */
-            exceeded_share: number | null;
-            /** Max */
-            max: (number | null)[];
-            /** Min */
-            min: (number | null)[];
-            /** Peak */
-            peak: number;
-            /** Peak At */
-            peak_at: number;
-            /** Rms */
-            rms: number | null;
-            /** Run Id */
-            run_id: number;
-            /** Tolerance */
-            tolerance: (number | null)[] | null;
         };
         /**
          * DocumentChange
@@ -3969,7 +4009,7 @@ export interface components {
             /**
              * Candidates
              * @description that they are chosen from
-             * @default 90
+             * @default 72
              */
             candidates: number;
             /**
@@ -4418,7 +4458,7 @@ export interface components {
             /**
              * Candidates
              * @description that they are chosen from
-             * @default 90
+             * @default 72
              */
             candidates: number;
             /**
@@ -5279,7 +5319,7 @@ export interface components {
             /** Unit */
             unit: string;
             /** Values */
-            values: components["schemas"]["ValueOut"][];
+            values: components["schemas"]["ComparedValue"][];
         };
         /**
          * Mode
@@ -5392,7 +5432,7 @@ export interface components {
             /** Block */
             block: number | null;
             /** Channels */
-            channels: components["schemas"]["app__comparison__schemas__ChannelOut"][];
+            channels: components["schemas"]["ComparedChannel"][];
             /** Decimated */
             decimated: boolean;
             /** Offsets S */
@@ -5896,7 +5936,7 @@ export interface components {
              * Transfer
              * @enum {string}
              */
-            transfer: "force" | "plant" | "disturbance" | "compliance" | "position";
+            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position";
             /**
              * Type
              * @default response
@@ -5910,7 +5950,7 @@ export interface components {
          */
         ResponseOut: {
             /** Available */
-            available: ("force" | "plant" | "disturbance" | "compliance" | "position")[];
+            available: ("force" | "plant" | "motion" | "disturbance" | "compliance" | "position")[];
             /** Bands */
             bands: components["schemas"]["BandOut"][];
             /** Model */
@@ -5922,7 +5962,7 @@ export interface components {
              * Transfer
              * @enum {string}
              */
-            transfer: "force" | "plant" | "disturbance" | "compliance" | "position";
+            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position";
             /** Unit */
             unit: string;
         };
@@ -6706,18 +6746,6 @@ export interface components {
             velocity_range_m_s: number;
             /** Zeta Lc */
             zeta_lc: number;
-        };
-        /**
-         * SeriesOut
-         * @description Least and greatest of a run's channel at each place of the axis.
-         */
-        SeriesOut: {
-            /** Max */
-            max: (number | null)[];
-            /** Min */
-            min: (number | null)[];
-            /** Run Id */
-            run_id: number;
         };
         /**
          * Servovalve
@@ -7763,20 +7791,6 @@ export interface components {
             value: unknown;
         };
         /**
-         * ValueOut
-         * @description A measurement of one run, by how much it differs from the baseline's, and whether that is tolerated.
-         */
-        ValueOut: {
-            /** Difference */
-            difference: number | null;
-            /** Run Id */
-            run_id: number;
-            /** Value */
-            value: number | null;
-            /** Within */
-            within: boolean | null;
-        };
-        /**
          * Valve
          * @description The valve command: its peak, the share of the test at its limit, and the longest stretch of that.
          */
@@ -7830,20 +7844,6 @@ export interface components {
             run_id: number;
             /** To S */
             to_s: number;
-        };
-        /**
-         * ChannelOut
-         * @description One channel of all runs.
-         */
-        app__comparison__schemas__ChannelOut: {
-            /** Channel */
-            channel: string;
-            /** Differences */
-            differences: components["schemas"]["DifferenceOut"][];
-            /** Series */
-            series: components["schemas"]["SeriesOut"][];
-            /** Unit */
-            unit: string;
         };
         /**
          * Comparison
@@ -7905,20 +7905,6 @@ export interface components {
             supply_flow_m3_s: number | null;
             /** Velocity M S */
             velocity_m_s: number | null;
-        };
-        /**
-         * ChannelOut
-         * @description A channel of the telemetry; `dtype` as NumPy writes it.
-         */
-        app__rigs__schemas__ChannelOut: {
-            /** Doc */
-            doc: string;
-            /** Dtype */
-            dtype: string;
-            /** Name */
-            name: string;
-            /** Unit */
-            unit: string;
         };
         /**
          * Comparison
@@ -8284,7 +8270,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__rigs__schemas__ChannelOut"][];
+                    "application/json": components["schemas"]["ChannelOut"][];
                 };
             };
             /** @description A problem document (RFC 9457) */
@@ -10794,7 +10780,7 @@ export interface operations {
         parameters: {
             query?: {
                 /** @description from which channel to which */
-                transfer?: "force" | "plant" | "disturbance" | "compliance" | "position";
+                transfer?: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position";
                 wait_s?: number;
             };
             header?: never;

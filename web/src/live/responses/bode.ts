@@ -8,6 +8,7 @@ import type { FrequencyResponse, ResponseSeries, TransferName } from "./types";
 export const TRANSFER_NAMES: Readonly<Record<TransferName, { readonly label: string; readonly says: string }>> = {
   force: { label: "Force", says: "Force to its setpoint: the closed loop" },
   plant: { label: "Plant", says: "Force to valve command" },
+  motion: { label: "Motion", says: "Rod velocity to valve command" },
   disturbance: { label: "Disturbance", says: "Force to rod velocity: what a motion does to the force" },
   compliance: { label: "Compliance", says: "Displacement of the unit to force" },
   position: { label: "Position", says: "Displacement of the unit to its command" },
