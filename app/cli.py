@@ -66,6 +66,34 @@ def simulate(
 
 
 @cli.command()
+def run(
+    test: Annotated[str, typer.Argument(help="The id of a test in the console's library.")],
+    url: Annotated[str, typer.Option(envvar="FORCERIG_URL", help="Of the console.")],
+    token: Annotated[
+        str, typer.Option(envvar="FORCERIG_TOKEN", help="With scope operate: better not typed.")
+    ],
+    reason: Annotated[str, typer.Option(help="Why: others see it.")] = "forcerig run",
+    revision: Annotated[int | None, typer.Option(min=1, help="The newest without.")] = None,
+    pressurise: Annotated[
+        bool, typer.Option("--pressurise", help="Reset and pressurise the rig first.")
+    ] = False,
+    wait: Annotated[bool, typer.Option("--wait", help="For the end, and the verdict.")] = False,
+    report: Report = None,
+    junit: Annotated[Path | None, typer.Option(help="Write the verdict as JUnit XML.")] = None,
+    json: Json = False,
+) -> None:
+    """Run a test on the rig of a running console, in command of it.
+
+    Ends with 0 passed, 1 failed acceptance, 2 refused, 3 did not come to its end. Ctrl C takes the load off.
+    """
+    from app.commands.run import Request
+    from app.commands.run import run as carry_out
+
+    asked = Request(test, url, token, reason, revision, pressurise, wait, report, junit, json)
+    raise typer.Exit(carry_out(asked))
+
+
+@cli.command()
 def export(
     recording: Annotated[Path, typer.Argument(help="The Parquet file of a run or a simulation.")],
     out: Annotated[Path, typer.Argument(help="Ends in .parquet, .csv, .mat, .tdms or .h5.")],

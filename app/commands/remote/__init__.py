@@ -1,0 +1,1 @@
+"""What `forcerig run` does with a running console: ask, drive, report."""
