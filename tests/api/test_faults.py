@@ -152,7 +152,7 @@ def test_other_work_costs_no_tick(ready: ConsoleProcess, program: str) -> None:
 
 
 def test_a_large_request_during_a_run_costs_no_tick(ready: ConsoleProcess, finished: int) -> None:
-    """As a report would: a file as a whole, and charts of every channel, again and again."""
+    """A file as a whole, and charts, again and again."""
     run_id = ready.start_run(STEP)
     asked = 0
     while ready.run(run_id)["outcome"] is None:
@@ -164,3 +164,29 @@ def test_a_large_request_during_a_run_costs_no_tick(ready: ConsoleProcess, finis
             asked += 1
     assert asked >= 2
     is_whole(ready, ready.run(run_id))
+
+
+def test_reports_made_during_a_run_cost_no_tick(ready: ConsoleProcess, finished: int) -> None:
+    """Each made anew, in a process apart: its run has another note each time."""
+    run_id = ready.start_run(STEP)
+    made = 0
+    while ready.run(run_id)["outcome"] is None:
+        noted = {"notes": f"report {made}", "annotation": ready.run(finished)["annotation"]}
+        ready.http.patch(f"/runs/{finished}", json=noted).raise_for_status()
+        report = ready.http.get(f"/runs/{finished}/report.pdf?extent=brief")
+        assert report.status_code == 200, report.text
+        assert report.content.startswith(b"%PDF")
+        made += 1
+    assert made >= 1
+    is_whole(ready, ready.run(run_id))
+
+
+def test_a_report_of_a_run_under_way_is_refused(ready: ConsoleProcess) -> None:
+    run_id = ready.start_run(STEP)
+    refused = ready.http.get(f"/runs/{run_id}/report.pdf")
+    assert (refused.status_code, refused.json()["code"]) == (409, "run_under_way")
+    assert "once it has ended" in refused.json()["detail"]
+    ready.ended_run(run_id)
+    html = ready.http.get(f"/runs/{run_id}/report.html?extent=brief")
+    assert html.status_code == 200, html.text
+    assert html.headers["content-disposition"].startswith("attachment")

@@ -184,7 +184,8 @@ def test_a_rig_that_cannot_do_it_ends_with_2(tmp_path: Path, text: str, says: st
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (("--report", "r.pdf"), "--report is not available yet"),
+        (("--report", "r.doc"), "r.doc is none of .pdf or .html"),
+        (("--report", "missing/r.pdf"), "there is no folder missing"),
         (("--out", "missing/run.parquet"), "there is no folder missing"),
         (("--controller", "missing.yaml"), "missing.yaml: no such file"),
     ],
