@@ -101,3 +101,34 @@ def compensator(
     given = _given(load_hz=load_hz, amplitude_n=amplitude_n, mean_n=mean_n, tune_hz=tune_hz)
     given |= _given(from_hz=from_hz, to_hz=to_hz, points=points)
     raise typer.Exit(run(Subject(rig, controller, json, csv), given))
+
+
+@analyse.command("frequency-response")
+def frequency_response(
+    run: Annotated[Path, typer.Argument(help="A run's Parquet file.")],
+    transfer: Annotated[
+        str, typer.Option(help="force, plant, motion, disturbance, compliance or position.")
+    ] = "force",
+    json: Json = False,
+    csv: Csv = False,
+) -> None:
+    """Every point that a run measured, with its 95 % intervals, and the extremes (figure 12)."""
+    from app.commands.run_analyses import Printed
+    from app.commands.run_analyses import frequency_response as tell
+
+    raise typer.Exit(tell(run, transfer, Printed(json, csv)))
+
+
+@analyse.command()
+def goodness(
+    run: Annotated[Path, typer.Argument(help="A run's Parquet file.")],
+    against: Annotated[
+        Path | None,
+        typer.Option(help="Another run of the same test.", show_default="its own setpoint"),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """G of equation (4): how well the force follows its setpoint, or that of another run."""
+    from app.commands.run_analyses import goodness as tell
+
+    raise typer.Exit(tell(run, against, json))
