@@ -12,7 +12,7 @@ from app.dependencies import ControllerService, PreviewsService, RigConfiguratio
 from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/controller", tags=["controller"], responses=PROBLEMS)
-PreviewId = Annotated[str, Path(min_length=1, max_length=64)]
+PreviewId = Annotated[str, Path(pattern="^[0-9a-f]{1,64}$")]
 
 
 @router.post("/check", operation_id="checkController")

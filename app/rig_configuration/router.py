@@ -1,4 +1,4 @@
-"""`/api/v1/rig-configuration`: the gains and the compensator in force, those before them, and changing them."""
+"""`/api/v1/rig-configuration`: what is known of the rig, what was known before, and changing it."""
 
 from typing import Annotated
 
@@ -27,7 +27,7 @@ router = APIRouter(
 
 @router.get("", operation_id="getRigConfiguration")
 def get_configuration(who: Viewer, configurations: RigConfigurationService) -> RigConfigurationOut:
-    """The settings in force, by whom, when and why, and whether the loop has them."""
+    """The configuration in force, by whom, when and why, and whether the loop's twin is of its model."""
     return shown.in_force(configurations.in_force, in_loop=configurations.loop_has_it())
 
 
@@ -38,7 +38,7 @@ def change_configuration(
     configurations: RigConfigurationService,
     authority: AuthorityService,
 ) -> RigConfigurationOut:
-    """Put other settings in force, whole or not at all; refused while a test runs."""
+    """Put another in force, whole or not at all; another model only while there is no pressure."""
     document = granted(configuration_from(body.document, "body"))
     epoch = granted(authority.check(who, body.lease))
     wanted = Wanted(document, body.why, body.based_on, who.name, epoch)
@@ -64,7 +64,7 @@ def list_revisions(
 def get_revision(
     who: Viewer, number: Number, configurations: RigConfigurationService
 ) -> RigConfigurationRevisionOut:
-    """The settings as they were in force once; 0 are those as shipped."""
+    """The configuration as it was in force once; 0 is the one as shipped."""
     return shown.revision(granted(configurations.revision(number)))
 
 

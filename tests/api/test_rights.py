@@ -21,8 +21,11 @@ VIEWER = {  # what computes and changes nothing, what stops the rig, and what is
     *("makeToken", "revokeToken", "endSession"),
     *("checkInterlocks", "replayFirstOut", "rerunFirstOut", "pointScene"),
     *("exportRun", "removeExport"),
+    *("checkController", "previewController", "giveUpControllerPreview"),
 }
 ENGINEER = {
+    *("changeController", "restoreControllerRevision"),
+    *("changeRigConfiguration", "restoreRigConfigurationRevision"),
     *("changeInterlocks", "removeFirstOut", "changeRetention", "listAudit", "verifyAudit"),
     *("giveDrill", "clearDrills"),
     *("startIdentification", "cancelIdentification", "removeIdentification"),

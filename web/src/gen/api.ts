@@ -1042,12 +1042,12 @@ export interface paths {
         };
         /**
          * Get Configuration
-         * @description The settings in force, by whom, when and why, and whether the loop has them.
+         * @description The configuration in force, by whom, when and why, and whether the loop's twin is of its model.
          */
         get: operations["getRigConfiguration"];
         /**
          * Change Configuration
-         * @description Put other settings in force, whole or not at all; refused while a test runs.
+         * @description Put another in force, whole or not at all; another model only while there is no pressure.
          */
         put: operations["changeRigConfiguration"];
         post?: never;
@@ -1106,7 +1106,7 @@ export interface paths {
         };
         /**
          * Get Revision
-         * @description The settings as they were in force once; 0 are those as shipped.
+         * @description The configuration as it was in force once; 0 is the one as shipped.
          */
         get: operations["getRigConfigurationRevision"];
         put?: never;
@@ -2992,6 +2992,12 @@ export interface components {
             /** Within */
             within: boolean | null;
         };
+        /**
+         * Comparison
+         * @description When a detector is violated; a NaN violates all of them.
+         * @enum {integer}
+         */
+        Comparison: 0 | 1 | 2 | 3;
         /**
          * Compensator
          * @description The kinematic compensation: lead, low-pass and notch on the LVT, then two gains.
@@ -6373,6 +6379,23 @@ export interface components {
             tags?: string[] | null;
         };
         /**
+         * RunComparison
+         * @description Runs beside one another.
+         */
+        RunComparison: {
+            /** Baseline Id */
+            baseline_id: number;
+            /** Measurements */
+            measurements: components["schemas"]["MeasurementRow"][];
+            overlay: components["schemas"]["OverlayOut"];
+            /** Runs */
+            runs: components["schemas"]["ComparedRun"][];
+            /** Settings */
+            settings: components["schemas"]["SettingRow"][];
+            /** Settings In All */
+            settings_in_all: number;
+        };
+        /**
          * RunDetail
          * @description A run with everything that it was made with.
          */
@@ -7846,23 +7869,6 @@ export interface components {
             to_s: number;
         };
         /**
-         * Comparison
-         * @description Runs beside one another.
-         */
-        app__comparison__schemas__Comparison: {
-            /** Baseline Id */
-            baseline_id: number;
-            /** Measurements */
-            measurements: components["schemas"]["MeasurementRow"][];
-            overlay: components["schemas"]["OverlayOut"];
-            /** Runs */
-            runs: components["schemas"]["ComparedRun"][];
-            /** Settings */
-            settings: components["schemas"]["SettingRow"][];
-            /** Settings In All */
-            settings_in_all: number;
-        };
-        /**
          * Peaks
          * @description The greatest of each within the window, either way, and the second of the test at which it is.
          *
@@ -7906,12 +7912,6 @@ export interface components {
             /** Velocity M S */
             velocity_m_s: number | null;
         };
-        /**
-         * Comparison
-         * @description When a detector is violated; a NaN violates all of them.
-         * @enum {integer}
-         */
-        rtcore__interlocks__Comparison: 0 | 1 | 2 | 3;
     };
     responses: never;
     parameters: never;
@@ -10215,7 +10215,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["app__comparison__schemas__Comparison"];
+                    "application/json": components["schemas"]["RunComparison"];
                 };
             };
             /** @description Still being computed: ask again */
