@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from app.analysis.measurements import MEASUREMENTS
-from app.comparison.schemas import MeasurementRow, ValueOut
+from app.comparison.schemas import ComparedValue, MeasurementRow
 from app.runs.verdicts import WHOLE_RUN
 
 
@@ -33,7 +33,7 @@ def measurement_rows(runs: Sequence[Measured], tolerance: float | None) -> list[
 
 def _values(
     runs: Sequence[Measured], key: tuple[int, str], tolerance: float | None
-) -> list[ValueOut]:
+) -> list[ComparedValue]:
     values = [run.values.get(key) for run in runs]
     baseline, told = values[0], []
     for run, value in zip(runs, values, strict=True):
@@ -41,5 +41,7 @@ def _values(
         within = None
         if difference is not None and baseline is not None and tolerance is not None:
             within = abs(difference) <= tolerance * abs(baseline)
-        told.append(ValueOut(run_id=run.run_id, value=value, difference=difference, within=within))
+        told.append(
+            ComparedValue(run_id=run.run_id, value=value, difference=difference, within=within)
+        )
     return told

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query, Response
 from app.access.dependencies import Viewer
 from app.catalogue.schemas import LONGEST_ID
 from app.comparison.order import Asked
-from app.comparison.schemas import Align, Comparison, Trend
+from app.comparison.schemas import Align, RunComparison, Trend
 from app.comparison.service import MOST_RUNS
 from app.dependencies import ComparisonsService
 from app.errors import Code, Fault, Refusal
@@ -21,7 +21,9 @@ Finite = Annotated[float | None, Query(ge=0, le=1e12, allow_inf_nan=False)]
 LARGEST_ID = 2**53
 
 
-@router.get("/compare", operation_id="compareRuns", responses=COMPUTING, response_model=Comparison)
+@router.get(
+    "/compare", operation_id="compareRuns", responses=COMPUTING, response_model=RunComparison
+)
 def compare_runs(
     who: Viewer,
     comparisons: ComparisonsService,

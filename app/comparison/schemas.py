@@ -41,7 +41,7 @@ class ComparedRun(BaseModel):
     offset_s: float | None
 
 
-class SeriesOut(BaseModel):
+class ComparedSeries(BaseModel):
     """Least and greatest of a run's channel at each place of the axis."""
 
     run_id: int
@@ -57,7 +57,7 @@ class ExceededOut(BaseModel):
     peak: float
 
 
-class DifferenceOut(BaseModel):
+class ComparedDifference(BaseModel):
     """A run less the baseline, tick against tick, and then in bins; `tolerance` is the least of each bin.
 
     `exceeded_share` is of the ticks that both have; null without a tolerance.
@@ -75,13 +75,13 @@ class DifferenceOut(BaseModel):
     exceeded_in_all: int
 
 
-class ChannelOut(BaseModel):
+class ComparedChannel(BaseModel):
     """One channel of all runs."""
 
     channel: str
     unit: str
-    series: list[SeriesOut]
-    differences: list[DifferenceOut]
+    series: list[ComparedSeries]
+    differences: list[ComparedDifference]
 
 
 class OverlayOut(BaseModel):
@@ -93,10 +93,10 @@ class OverlayOut(BaseModel):
     x: list[float]
     decimated: bool
     offsets_s: list[float | None]
-    channels: list[ChannelOut]
+    channels: list[ComparedChannel]
 
 
-class ValueOut(BaseModel):
+class ComparedValue(BaseModel):
     """A measurement of one run, by how much it differs from the baseline's, and whether that is tolerated."""
 
     run_id: int
@@ -111,7 +111,7 @@ class MeasurementRow(BaseModel):
     block: int | None
     name: str
     unit: str
-    values: list[ValueOut]
+    values: list[ComparedValue]
 
 
 class SettingRow(BaseModel):
@@ -122,7 +122,7 @@ class SettingRow(BaseModel):
     values: list[Any]
 
 
-class Comparison(BaseModel):
+class RunComparison(BaseModel):
     """Runs beside one another."""
 
     baseline_id: int

@@ -15,8 +15,8 @@ from app.comparison.overlays import Overlays
 from app.comparison.schemas import (
     Align,
     ComparedRun,
-    Comparison,
     OverlayOut,
+    RunComparison,
     Trend,
     TrendLine,
     TrendPoint,
@@ -56,7 +56,7 @@ class Comparisons:
         self._runs_dir = runs_dir
         self._overlays = Overlays(histories)
 
-    def of(self, asked: Asked, wait_s: float = 0.0) -> Comparison | Computing | Refusal:
+    def of(self, asked: Asked, wait_s: float = 0.0) -> RunComparison | Computing | Refusal:
         """Runs beside one another; how far that is where it takes longer than `wait_s`."""
         refusal = _refused(asked)
         runs = refusal or self._known(asked.ids)
@@ -70,7 +70,7 @@ class Comparisons:
             return laid
         settings = differing([run.settings for run in runs])
         offsets = zip(runs, laid.offsets_s, strict=True)
-        return Comparison(
+        return RunComparison(
             baseline_id=asked.ids[0],
             runs=[run.told.model_copy(update={"offset_s": offset}) for run, offset in offsets],
             overlay=laid,

@@ -8,12 +8,12 @@ from app.analysis.overlay import Difference, Floats
 from app.comparison.order import Laid, Order
 from app.comparison.schemas import (
     Align,
-    ChannelOut,
-    DifferenceOut,
+    ComparedChannel,
+    ComparedDifference,
+    ComparedSeries,
     ExceededOut,
     Numbers,
     OverlayOut,
-    SeriesOut,
 )
 from rtcore.channels import CHANNEL
 
@@ -38,13 +38,13 @@ def told(
     )
 
 
-def _channel(order: Order, name: str, found: Laid, start: float, place: float) -> ChannelOut:
+def _channel(order: Order, name: str, found: Laid, start: float, place: float) -> ComparedChannel:
     ids = [side.run_id for side in order.sides]
-    return ChannelOut(
+    return ComparedChannel(
         channel=name,
         unit=CHANNEL[name].unit,
         series=[
-            SeriesOut(run_id=run_id, min=_numbers(band.low), max=_numbers(band.high))
+            ComparedSeries(run_id=run_id, min=_numbers(band.low), max=_numbers(band.high))
             for run_id, band in zip(ids, found.series, strict=True)
         ],
         differences=[
@@ -56,7 +56,7 @@ def _channel(order: Order, name: str, found: Laid, start: float, place: float) -
 
 def _difference(
     run_id: int, found: Difference, order: Order, start: float, place: float
-) -> DifferenceOut:
+) -> ComparedDifference:
     found.close()
     asked = order.tolerance is not None
     exceeding = found.exceeding
@@ -64,7 +64,7 @@ def _difference(
     def at(index: int) -> float:
         return round(start + index * place, 9)
 
-    return DifferenceOut(
+    return ComparedDifference(
         run_id=run_id,
         min=_numbers(found.band.low),
         max=_numbers(found.band.high),

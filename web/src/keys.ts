@@ -46,6 +46,8 @@ export const RUN_KEYS: readonly { readonly key: string; readonly does: string }[
   { key: "↑ ↓", does: "Next or previous run; more are read at the end" },
   { key: "Enter", does: "Open the run" },
   { key: "e", does: "Edit tags, notes and operator" },
+  { key: "x", does: "Choose the run for a comparison, or not" },
+  { key: "m", does: "Compare the runs that are chosen" },
   { key: "+ −", does: "Zoom in or out, in the chart of a run" },
   { key: "← →", does: "Move along the run; with Shift: by a whole window" },
   { key: "0", does: "The whole run" },

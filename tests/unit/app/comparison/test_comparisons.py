@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from app.comparison.order import Asked
-from app.comparison.schemas import Align, Comparison
+from app.comparison.schemas import Align, RunComparison
 from app.comparison.service import Comparisons
 from app.db import Database
 from app.errors import Code, Refusal
@@ -35,9 +35,9 @@ def comparisons(database: Database, tmp_path: Path) -> Iterator[Comparisons]:
     comparisons.close()
 
 
-def compare(comparisons: Comparisons, *ids: int, **how: Any) -> Comparison:
+def compare(comparisons: Comparisons, *ids: int, **how: Any) -> RunComparison:
     found = comparisons.of(Asked(ids, **how), wait_s=60)
-    assert isinstance(found, Comparison), found
+    assert isinstance(found, RunComparison), found
     return found
 
 
