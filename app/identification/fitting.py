@@ -4,7 +4,7 @@ Each channel weighs as much as its noise lets it, or as what remains of it where
 method of Maine and Iliff). A prior of a factor e holds what the windows tell nothing of where it was.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from scipy.linalg import cholesky, solve_triangular
 from scipy.optimize import lsq_linear
 
 from app.identification.covariance import Known, Spectra, coloured_meat, combined
-from app.identification.model import Model
+from app.identification.model import DISPLACEMENT, MEASURED, SPOOL, Model
 from app.identification.parameters import Parameter, coordinates, placed
 from app.identification.sensitivities import (
     Seen,
@@ -31,11 +31,19 @@ Floats = npt.NDArray[np.float64]
 Progress = Callable[[float], None]
 
 MOST_ITERATIONS = 12
+FARTHEST = 0.7  # of a coordinate in one step: beyond, the model bends too much to be believed
 SETTLED = 0.02  # deviations: a step that is smaller changes nothing that anybody could see
 LEAST_STEP = 1e-7
 HALVINGS = 6
 PRIOR = 1.0  # deviation of a coordinate before anything is measured
 PRIOR_ZERO_N = 1e4  # of a force zero
+ALONE = {  # what spool and displacement tell by themselves
+    "servovalve.omega_f_rad_s",
+    "servovalve.zeta_f",
+    "servovalve.spool_gain_rad_s",
+    "unit.omega_t_rad_s",
+    "unit.zeta_t",
+}
 
 
 @dataclass(frozen=True)
@@ -68,6 +76,31 @@ class Fitted:
     settled: bool
 
 
+@dataclass(frozen=True)
+class _Stage:
+    """What is moved, (p,), and by which channels, (7,); from one share of the search to another."""
+
+    free: npt.NDArray[np.bool_]
+    channels: npt.NDArray[np.bool_]
+    begins: float
+    ends: float
+
+    def share(self, iteration: int) -> float:
+        """Half of what is left is done in each iteration or two."""
+        return self.ends - (self.ends - self.begins) * 0.75 ** (iteration - 1)
+
+
+def _stages(problem: Problem) -> Iterator[_Stage]:
+    """Spool and unit depend on nothing else; what is wrong with them would mislead all the rest."""
+    paths = [p.path for p in problem.wanted]
+    first = np.array([path in ALONE for path in paths] + [False] * problem.runs)
+    alone = np.isin(np.arange(len(MEASURED)), (SPOOL, DISPLACEMENT))
+    if first.any():
+        yield _Stage(first, alone, 0.0, 0.15)
+    everything = np.ones(len(first), np.bool_), np.ones(len(MEASURED), np.bool_)
+    yield _Stage(*everything, 0.15, 1.0)
+
+
 class Search:
     """One search."""
 
@@ -83,29 +116,35 @@ class Search:
         self._low, self._high = np.array([*bounds, *free]).T
 
     def run(self, progress: Progress) -> Fitted:
-        """Search until the steps are too small to matter."""
-        at, settled, seen = self._begun.copy(), False, self._seen(self._begun)
+        """Search until the steps are too small to matter: what channels of its own tell first, then everything."""
+        at, iterations = self._begun.copy(), 0
+        for stage in _stages(self._problem):
+            at, seen, weights, took, settled = self._stage(stage, at, progress)
+            iterations += took
+        known = self._known(seen, weights)
+        remained = root_mean_square(s.residual for s in seen)
+        return Fitted(at, known, remained, weights, iterations, settled)
+
+    def _stage(
+        self, stage: "_Stage", at: Floats, progress: Progress
+    ) -> tuple[Floats, list[Seen], Floats, int, bool]:
         for iteration in range(1, MOST_ITERATIONS + 1):
+            progress(stage.share(iteration))
+            seen = self._seen(at, stage.free)
             weights = np.maximum(self._problem.noise, root_mean_square(s.residual for s in seen))
+            weights[~stage.channels] = np.inf
             inverse, step = self._step(at, seen, weights)
             small = SETTLED * np.sqrt(np.diag(inverse)) + LEAST_STEP
             settled = bool(np.all(np.abs(step) < small))
-            if settled:
-                break
-            moved = self._along(at, step, weights)
+            moved = None if settled else self._along(at, step, weights)
             if moved is None:
                 break
             at = moved
-            seen = self._seen(at)
-            progress(iteration / MOST_ITERATIONS)
-        remained = root_mean_square(s.residual for s in seen)
-        weights = np.maximum(self._problem.noise, remained)
-        known = self._known(seen, weights)
-        return Fitted(at, known, remained, weights, iteration, settled)
+        return at, seen, weights, iteration, settled
 
-    def _seen(self, at: Floats) -> list[Seen]:
+    def _seen(self, at: Floats, free: npt.NDArray[np.bool_]) -> list[Seen]:
         p = self._problem
-        there = Sensitivities(p.rig, p.wanted, at[: self._n], at[self._n :], p.period_s)
+        there = Sensitivities(p.rig, p.wanted, at[: self._n], at[self._n :], p.period_s, free)
         return list(in_threads(there.seen, p.windows, p.threads))
 
     def _step(self, at: Floats, seen: Sequence[Seen], weights: Floats) -> tuple[Floats, Floats]:
@@ -119,8 +158,9 @@ class Search:
         scale = np.sqrt(np.diag(total))
         root = cholesky(total / np.outer(scale, scale))
         wanted = solve_triangular(root, pull / scale, trans="T")
-        free = (self._low - at) * scale, (self._high - at) * scale
-        found = lsq_linear(root, wanted, bounds=free, tol=1e-12)
+        far = np.append(np.full(self._n, FARTHEST), np.full(self._problem.runs, np.inf))
+        ends = np.maximum(self._low - at, -far) * scale, np.minimum(self._high - at, far) * scale
+        found = lsq_linear(root, wanted, bounds=ends, tol=1e-12)
         inverse = np.linalg.inv(total / np.outer(scale, scale)) / np.outer(scale, scale)
         return inverse, np.asarray(found.x / scale)
 

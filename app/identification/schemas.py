@@ -23,7 +23,7 @@ class Fit(BaseModel):
     windows: int = Field(
         default=20, ge=4, le=100, description="of 0.4 s, that the model is fitted to"
     )
-    candidates: int = Field(default=90, ge=8, le=1000, description="that they are chosen from")
+    candidates: int = Field(default=72, ge=8, le=1000, description="that they are chosen from")
 
     @model_validator(mode="after")
     def _known(self) -> Self:

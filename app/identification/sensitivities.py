@@ -39,18 +39,22 @@ class Sensitivities:
         at: Floats,
         zeros_n: Floats,
         period_s: float,
+        free: npt.NDArray[np.bool_] | None = None,
     ) -> None:
+        """`free` (p,) is which coordinates matter; the slopes of the others are left at nothing."""
         self._zeros_n = zeros_n
+        self._count = len(wanted)
         self._centre = Model(placed(rig, wanted, at), period_s)
-        self._moved = [_beside(rig, wanted, at, i, period_s) for i in range(len(wanted))]
+        places = [i for i in range(len(wanted)) if free is None or free[i]]
+        self._moved = {i: _beside(rig, wanted, at, i, period_s) for i in places}
 
     def seen(self, window: Window) -> Seen:
         """The residual of a window and what moves it."""
         found = driven(self._centre, window)
-        slopes = np.zeros((*found.shape, len(self._moved) + len(self._zeros_n)))
-        for i, (model, step) in enumerate(self._moved):
+        slopes = np.zeros((*found.shape, self._count + len(self._zeros_n)))
+        for i, (model, step) in self._moved.items():
             slopes[:, :, i] = (driven(model, window) - found) / step
-        slopes[:, FORCE, len(self._moved) + window.source] = 1.0
+        slopes[:, FORCE, self._count + window.source] = 1.0
         return Seen(residual_of(found, window, self._zeros_n), slopes)
 
 
