@@ -17,11 +17,11 @@ from app.definitions.definition import Definition
 from app.definitions.responses import FrequencyResponse
 from app.definitions.windows import stretches
 from app.recording.samples import Columns, Samples
+from app.rig_configuration.record import model_of
 from app.runs.response_file import read_points
 from app.runs.response_model import Load, model_curve
 from app.runs.response_schemas import ModelCurve, ResponseOut, ResponseSeries, TransferName
 from app.runs.response_series import bands_of, series_of
-from rtcore.rig.parameters import rig_from
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Found:
         reader = TimeReader(
             stretches(self.definition),
             self.period_s,
-            rig_from(self.rig),
+            model_of(self.rig),
             first_tick=self.first_tick,
         )
         for chunk in self._chunks(NEEDED):

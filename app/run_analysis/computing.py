@@ -19,6 +19,7 @@ from app.histories.history import Histories
 from app.prediction.series_file import NAME as PREDICTED
 from app.recording.samples import Samples, open_samples
 from app.recording.whole_file import whole_file
+from app.rig_configuration.record import model_of
 from app.run_analysis.schemas import VERSION, RunAnalysis
 from app.run_analysis.told import told
 from app.runs.measuring import read_definition
@@ -64,7 +65,7 @@ def analysis_of(subject: Subject, report: Progress) -> RunAnalysis:
     if samples is None:
         raise ValueError("there are no samples of the run")
     definition = read_definition(subject.definition, subject.histories)
-    rig = RigParameters.model_validate(subject.rig)
+    rig = model_of(subject.rig)
     first_tick = samples.first_tick if subject.first_tick is None else subject.first_tick
     reader = TimeReader(
         stretches(definition),

@@ -12,8 +12,8 @@ import numpy as np
 from app.analysis.linear import ForceLoop, linear_rig
 from app.controller.record import to_record
 from app.controller.settings import ControllerSettings
+from app.rig_configuration.record import model_of
 from app.runs.response_schemas import ModelCurve
-from rtcore.rig.parameters import RigParameters
 
 POINTS = 120
 MOST_KEPT = 64
@@ -65,7 +65,7 @@ class ModelCurves:
 def model_curve(run: Mapping[str, Any], load: Load, period_s: float) -> ModelCurve | None:
     """Force to setpoint of the rig linearised for a load; None where it cannot be."""
     try:
-        rig = linear_rig(RigParameters.model_validate(run["rig"]), load.amplitude_n, load.mean_n)
+        rig = linear_rig(model_of(run["rig"]), load.amplitude_n, load.mean_n)
         gains = to_record(ControllerSettings.model_validate(run["controller"]))
     except ValueError:  # a mean that this rig cannot hold, or settings of another version
         return None
