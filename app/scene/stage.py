@@ -45,6 +45,7 @@ class Stage:
         server.initial_camera.look_at = LOOKS_AT_M
         server.initial_camera.fov = FIELD_RAD
         server.scene.world_axes.visible = False
+        server.scene.configure_default_lights(cast_shadow=False)  # too dear without a graphics card
 
         @server.on_client_connect
         async def _(client: viser.ClientHandle) -> None:  # async: where `looking` is known

@@ -21,10 +21,12 @@ export const putInForce = (document: Configuration, how: Saving): Promise<InForc
 
 /** @param diameters_m of bypass orifices; without any, that of the rig. */
 export const analyseStatic = (diameters_m: readonly number[]): Promise<StaticSheet> =>
-  request(`analysis/static?${new URLSearchParams(diameters_m.map((d) => ["orifice_diameter_m", String(d)]))}`);
+  request(
+    `analysis/static?${new URLSearchParams([["points", "401"], ...diameters_m.map((d) => ["orifice_diameter_m", String(d)])])}`,
+  );
 
-/** @param load_hz puts the compensation into the loop. */
-export function analyseLinear(mean_n: number, load_hz: number | null): Promise<LinearSheet> {
-  const query = new URLSearchParams({ mean_n: String(mean_n), ...(load_hz === null ? {} : { load_hz: String(load_hz) }) });
+/** @param load_hz puts the compensation into the loop. @param to_hz peak and dip are sought below. */
+export function analyseLinear(mean_n: number, load_hz: number | null, to_hz: number): Promise<LinearSheet> {
+  const query = new URLSearchParams({ mean_n: String(mean_n), to_hz: String(to_hz), ...(load_hz === null ? {} : { load_hz: String(load_hz) }) });
   return request(`analysis/linear?${query}`);
 }
