@@ -40,7 +40,8 @@ _DIVISOR = {Shape.NORMAL: 1.0, Shape.RECTANGULAR: math.sqrt(3.0)}
 class Known(NamedTuple):
     """How well the rig itself is known: half widths. Where nobody has measured better, these are assumed."""
 
-    load_cell_n: float = 125.0  # ±0.25 % of 50 kN, the rig's data sheet
+    load_cell_n: float = 125.0
+    load_cell_from: str = "the rig's data sheet: 0.25 % of 50 kN"
     masses_share: float = 0.01
     velocity_share: float = 0.01
     stiffness_share: float = 0.05
@@ -143,7 +144,7 @@ def _of_the_cell(found: Dynamics, rig: RigParameters, known: Known) -> list[Cont
             known.load_cell_n,
             Shape.RECTANGULAR,
             Source.DATA_SHEET,
-            f"±{known.load_cell_n:.0f} N, {100 * known.load_cell_n / RATED_N:.2g} % of {RATED_N / 1000:.0f} kN",
+            f"±{known.load_cell_n:.3g} N, {known.load_cell_from}",
         ),
         _part(
             "Noise of the load cell",
