@@ -54,7 +54,9 @@ def _reports(api: httpx2.Client, run_id: int, lasts_s: float) -> int:
     while time.monotonic() < give_up:
         noted = {"notes": str(made), "annotation": made}
         api.patch(f"/runs/{run_id}", json=noted).raise_for_status()
-        api.get(f"/runs/{run_id}/report.pdf").raise_for_status()
+        report = api.get(f"/runs/{run_id}/report.pdf")
+        if report.is_error:
+            raise RuntimeError(report.json()["detail"])
         made += 1
     return made
 

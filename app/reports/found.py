@@ -3,21 +3,19 @@
 What the console has found already and keeps in the run's folder is taken from there.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from app.analysis.response.transfers import TRANSFERS
-from app.analysis.time_domain import NEEDED, TimeDomain, TimeReader
 from app.conducting.found import Found as Point
 from app.conducting.responding import NEEDS, Responding, responses_in
 from app.definitions.definition import Definition
 from app.definitions.responses import FrequencyResponse
-from app.definitions.windows import stretches
 from app.recording.samples import Columns, Samples
-from app.rig_configuration.record import model_of
+from app.run_analysis.schemas import RunAnalysis
 from app.runs.response_file import read_points
 from app.runs.response_model import Load, model_curve
 from app.runs.response_schemas import ModelCurve, ResponseOut, ResponseSeries, TransferName
@@ -37,6 +35,7 @@ class Found:
     samples: Samples
     period_s: float
     first_tick: int
+    analyse: Callable[[], RunAnalysis]
     folder: Path | None = None
 
     @cached_property
@@ -51,17 +50,9 @@ class Found:
         return tuple(self._response(name, points, asked) for name in _transfers(points))
 
     @cached_property
-    def in_time(self) -> TimeDomain:
-        """Layers, steps and the error budget, in one pass over the samples."""
-        reader = TimeReader(
-            stretches(self.definition),
-            self.period_s,
-            model_of(self.rig),
-            first_tick=self.first_tick,
-        )
-        for chunk in self._chunks(NEEDED):
-            reader.take(chunk)
-        return reader.result()
+    def analysis(self) -> RunAnalysis:
+        """Layers, steps, rainflow and the error budget."""
+        return self.analyse()
 
     def _points(self) -> list[Point]:
         responding = Responding(self.definition, self.period_s, self.first_tick)

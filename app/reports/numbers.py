@@ -74,7 +74,9 @@ def duration(seconds: float | None) -> str:
     if math.isfinite(seconds) and seconds >= 120.0:
         minutes, rest = divmod(round(seconds), 60)
         hours, minutes = divmod(minutes, 60)
-        return f"{hours} h {minutes:02d} min {rest:02d} s" if hours else f"{minutes} min {rest:02d} s"
+        return (
+            f"{hours} h {minutes:02d} min {rest:02d} s" if hours else f"{minutes} min {rest:02d} s"
+        )
     if seconds == 0.0 or not math.isfinite(seconds):
         return f"{digits(seconds)} s"
     _, scale, unit = next(row for row in _SHORT_S if abs(seconds) >= row[0])

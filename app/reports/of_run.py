@@ -1,6 +1,7 @@
 """What a report needs of a run of the console: from its database and the run's folder alone."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,9 @@ from app.recording.files import parquet_path
 from app.recording.samples import Samples, open_samples
 from app.reports.found import Found
 from app.reports.subject import Frozen, Happening, Noted, Subject
+from app.run_analysis.computing import Subject as Analysed
+from app.run_analysis.computing import analyse_run, kept
+from app.run_analysis.schemas import RunAnalysis
 from app.runs import repository
 from app.runs.measuring import read_definition
 from app.runs.models import Run, RunEvent
@@ -92,7 +96,21 @@ def _found(run: Run, samples: Samples, folder: Path, histories: Histories | None
         return None
     first_tick = samples.first_tick if run.first_tick is None else run.first_tick
     period_s = run.period_ns * 1e-9
-    return Found(definition, run.rig, run.controller, samples, period_s, first_tick, folder)
+    made_with = definition, run.rig, run.controller
+    told = run.definition, run.rig, period_s, first_tick, histories
+    analyse = partial(_analysed, Analysed(folder, *told))
+    return Found(*made_with, samples, period_s, first_tick, analyse, folder)
+
+
+def _analysed(subject: Analysed) -> RunAnalysis:
+    """As the console keeps it, or would: the next to ask finds it there."""
+    found = kept(subject.folder)
+    if found is None:
+        analyse_run(lambda share: None, subject)
+        found = kept(subject.folder)
+    if found is None:
+        raise OSError(f"the analysis in {subject.folder.name} cannot be read back")
+    return found
 
 
 def _predicted(folder: Path, run: Run, events: Sequence[RunEvent]) -> Samples | None:

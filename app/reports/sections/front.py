@@ -3,7 +3,9 @@
 from app.documents.units import say
 from app.reports.numbers import NOTHING, duration, moment, quantity, spoken
 from app.reports.report import Column, Facts, Item, Row, Table, Tone, Verdict, Words
-from app.reports.subject import Subject
+from app.reports.subject import Document, Subject
+from app.rig_configuration.configuration import Calibration, TypePlate
+from app.rig_configuration.record import KEY, configuration_of
 from app.runs.results_schemas import JudgedCriterion
 
 TONES = {"pass": Tone.GOOD, "fail": Tone.BAD, "unset": Tone.QUIET}
@@ -47,10 +49,7 @@ def _facts(subject: Subject) -> list[tuple[str, str]]:
         ("Operator", noted.operator or "not noted"),
         ("Started", moment(subject.started_at)),
         ("Ended", moment(subject.ended_at)),
-        ("Unit under test", str(frozen.rig.get("unit_name") or "as in the rig's configuration")),
-        ("Rig", str(frozen.rig.get("name", NOTHING))),
-        *_identities(subject),
-        ("Load cell", _load_cell(subject)),
+        *_rig(frozen.rig),
         ("Controller", _controller(subject)),
         ("Software", f"forcerig {subject.software}"),
         ("Prediction", "" if subject.prediction is None else subject.prediction.verdict.value),
@@ -60,23 +59,31 @@ def _facts(subject: Subject) -> list[tuple[str, str]]:
     return [(name, value) for name, value in facts if value and value != NOTHING]
 
 
-def _identities(subject: Subject) -> list[tuple[str, str]]:
-    """Revision and serial numbers, where the frozen rig has them."""
-    rig, found = subject.frozen.rig, []
-    if rig.get("revision") is not None:
-        found.append(("Rig configuration", f"revision {rig['revision']}"))
-    for name, value in sorted(dict(rig.get("serials") or {}).items()):
-        found.append((f"Serial, {spoken(str(name)).lower()}", str(value)))
-    return found
-
-
-def _load_cell(subject: Subject) -> str:
-    sensors = subject.frozen.rig.get("sensors", {})
-    band = sensors.get("confidence_n")
+def _rig(kept: Document) -> list[tuple[str, str]]:
+    """What it was tested on, with revision and serial numbers where the run keeps a configuration."""
+    sensors = kept.get("sensors", {})
     span = sensors.get("force_range_n")
-    told = [] if span is None else [f"range ±{quantity(span, 'N')}"]
-    told += [] if band is None else [f"confidence ±{say(band, 'N')}"]
-    return ", ".join(told)
+    cell = "" if span is None else f"range ±{quantity(span, 'N')}"
+    configuration = configuration_of(kept)
+    if configuration is None:
+        return [("Rig", str(kept.get("name", ""))), ("Load cell", cell)]
+    calibrated = configuration.calibrations.load_cell
+    told = [("certificate", calibrated.certificate), ("calibrated", calibrated.calibrated_on)]
+    told += [("due", calibrated.due_on)]
+    known = ", ".join(f"{name} {value}" for name, value in told if value)
+    return [
+        ("Lab", configuration.lab),
+        ("Unit under test", _plate(configuration.unit_under_test)),
+        ("Rig", _plate(configuration.rig)),
+        ("Rig configuration", f"revision {kept[KEY].get('revision', NOTHING)}"),
+        ("Load cell", ", ".join(filter(None, [_plate(calibrated), cell, known]))),
+    ]
+
+
+def _plate(of: TypePlate | Calibration) -> str:
+    name = getattr(of, "name", "")
+    serial = f"serial {of.serial_number}" if of.serial_number else ""
+    return ", ".join(filter(None, [name, of.maker, of.part_number, serial]))
 
 
 def _controller(subject: Subject) -> str:

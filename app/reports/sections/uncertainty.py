@@ -1,20 +1,23 @@
 """The error budget of the dynamic force: how well it was measured and, apart from that, how well controlled."""
 
-from app.analysis.uncertainty import COVERAGE, Contribution, Measured
 from app.reports.numbers import digits, quantity
 from app.reports.report import Column, Facts, Row, Section, Table, Words
 from app.reports.subject import Subject
+from app.run_analysis.schemas import ContributionOut, UncertaintyOut
 
 
 def uncertainty(subject: Subject) -> Section | None:
     """Nothing where there are no samples."""
     if subject.found is None:
         return None
-    found = subject.found.in_time
-    told, control = found.measured, found.controlled
+    found = subject.found.analysis
+    told, control = found.uncertainty, found.control
     facts = (
-        ("Load cell's reading", f"±{_n(told.cell_expanded_n)} (k = {COVERAGE:g})"),
-        ("Force on the unit", f"±{_n(told.unit_expanded_n)} (k = {COVERAGE:g}){_of_range(told)}"),
+        ("Load cell's reading", f"±{_n(told.cell_expanded_n)} (k = {told.coverage:g})"),
+        (
+            "Force on the unit",
+            f"±{_n(told.unit_expanded_n)} (k = {told.coverage:g}){_of_range(told)}",
+        ),
         ("Of the rated force", f"{digits(told.share_of_rated_percent, 3)} %"),
         (
             "Range of the force",
@@ -36,7 +39,7 @@ def uncertainty(subject: Subject) -> Section | None:
     return Section("Uncertainty", items)
 
 
-def _budget(told: Measured) -> Table:
+def _budget(told: UncertaintyOut) -> Table:
     columns = (
         Column("Contribution", share=3.4),
         Column("Value", number=True, share=1.3),
@@ -48,13 +51,13 @@ def _budget(told: Measured) -> Table:
     return Table("Error budget", columns, tuple(_row(one) for one in told.contributions))
 
 
-def _row(one: Contribution) -> Row:
+def _row(one: ContributionOut) -> Row:
     of = "unit: " if one.of_unit else ""
     cells = (f"{of}{one.name}", _n(one.value_n), one.shape.value, _n(one.standard_n))
     return Row((*cells, one.source.value, one.how))
 
 
-def _of_range(told: Measured) -> str:
+def _of_range(told: UncertaintyOut) -> str:
     share = told.share_of_range_percent
     return "" if share is None else f", {digits(share, 3)} % of its range"
 
