@@ -62,8 +62,9 @@ class Multisine:
         loads = dict.fromkeys([*self._realisations, *self._loads[: self._number + 1]])
         for mean_n, amplitude_n in loads:
             realisations = self._of((mean_n, amplitude_n))
-            for transfer in TRANSFERS.values() if realisations else ():
-                found += self._read(transfer, realisations, mean_n, amplitude_n)
+            with np.errstate(divide="ignore", invalid="ignore"):  # of what stands still: no point
+                for transfer in TRANSFERS.values() if realisations else ():
+                    found += self._read(transfer, realisations, mean_n, amplitude_n)
         return found
 
     def _next(self) -> None:
