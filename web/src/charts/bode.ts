@@ -175,7 +175,7 @@ const FLOORS = [0.99, 0.98, 0.95, 0.9, 0.8, 0.5, 0] as const;
 function coherenceRange(dots: readonly Dot[]): Span {
   const least = Math.min(1, ...dots.map(({ y }) => y));
   const min = FLOORS.find((floor) => floor <= least - 0.001) ?? 0;
-  return { min, max: 1 + 0.06 * (1 - min) };
+  return { min: min - 0.15 * (1 - min), max: 1 + 0.25 * (1 - min) };
 }
 
 /** The frequencies of everything that is drawn, a little wider; of nothing, 1…100 Hz. */

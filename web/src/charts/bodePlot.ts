@@ -109,7 +109,8 @@ export class BodePanel {
         return marks.map((mark) => (labelled.has(mark) ? `${Number(mark.toPrecision(6))}\u00a0${FREQUENCY.symbol}` : ""));
       },
     };
-    return [frequency, this.name === "gain" ? this.gainAxis(up!) : { ...up, incrs: INCREMENTS[this.name] }];
+    const plain: uPlot.Axis = { ...up, incrs: INCREMENTS[this.name] };
+    return [frequency, { gain: () => this.gainAxis(up!), phase: () => plain, coherence: () => coherenceAxis(plain) }[this.name]()];
   }
 
   /** In dB an even axis; in a unit its marks are those of a logarithmic one. */
@@ -141,6 +142,13 @@ export class BodePanel {
     this.draw();
   }
 }
+
+/** There is none above one. */
+const coherenceAxis = (up: uPlot.Axis): uPlot.Axis => ({
+  ...up,
+  space: 1.6 * fontSize(),
+  splits: (_, __, min, max, step) => evenly(Math.max(0, min), Math.min(1, max), step),
+});
 
 function evenly(min: number, max: number, step: number): number[] {
   const first = Math.ceil(min / step - 1e-9);
