@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from app.comparison.schemas import RunComparison
 from app.db import Database
 from app.errors import Refusal
 from app.histories.store import Store
@@ -9,6 +10,7 @@ from app.jobs.apart import Report as Tell
 from app.recording.whole_file import whole_file
 from app.reports.branding import Branding, branding
 from app.reports.collect import collect
+from app.reports.comparison import collect_comparison
 from app.reports.of_run import subject_of_run
 from app.reports.orders import Format, Order, Sources
 from app.reports.rendering import render_html, render_pdf
@@ -44,3 +46,11 @@ def write(report: Report, look: Branding, form: Format, path: Path) -> Refusal |
     with whole_file(path) as file:
         file.write(made)
     return None
+
+
+def compare(sources: Sources, comparison: RunComparison) -> bytes | Refusal:
+    """The report of runs that have been compared, as PDF."""
+    look = branding(sources.logo, sources.template)
+    if isinstance(look, Refusal):
+        return look
+    return render_pdf(collect_comparison(comparison), look)

@@ -18,7 +18,7 @@ from app.recording.samples import Samples, open_samples
 from app.reports.found import Found
 from app.reports.subject import Frozen, Happening, Noted, Subject
 from app.run_analysis.computing import Subject as Analysed
-from app.run_analysis.computing import analyse_run, kept
+from app.run_analysis.computing import analyse_run, analysis_of, kept
 from app.run_analysis.schemas import RunAnalysis
 from app.runs import repository
 from app.runs.measuring import read_definition
@@ -106,11 +106,14 @@ def _analysed(subject: Analysed) -> RunAnalysis:
     """As the console keeps it, or would: the next to ask finds it there."""
     found = kept(subject.folder)
     if found is None:
-        analyse_run(lambda share: None, subject)
+        analyse_run(_ignore, subject)
         found = kept(subject.folder)
-    if found is None:
-        raise OSError(f"the analysis in {subject.folder.name} cannot be read back")
-    return found
+    # What has values that are no numbers is not understood when it is read back.
+    return found or analysis_of(subject, _ignore)
+
+
+def _ignore(share: float) -> None:
+    """Nobody waits for that share alone."""
 
 
 def _predicted(folder: Path, run: Run, events: Sequence[RunEvent]) -> Samples | None:

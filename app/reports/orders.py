@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
+from app.comparison.schemas import RunComparison
 from app.errors import Refusal
 from app.jobs.apart import Report as Tell
 
@@ -48,3 +49,12 @@ def carry_out(tell: Tell, sources: Sources, order: Order) -> Refusal | None:
     from app.reports.making import make
 
     return make(tell, sources, order)
+
+
+def carry_out_comparison(
+    tell: Tell, sources: Sources, comparison: RunComparison
+) -> bytes | Refusal:
+    """Set the report of runs that have been compared, likewise; it is not kept."""
+    from app.reports.making import compare
+
+    return compare(sources, comparison)

@@ -1,16 +1,19 @@
 """`/api/v1/runs/{id}/report.pdf` and `.html`: made by a process apart, waited for without a thread."""
 
-from typing import Annotated
+from typing import Annotated, Any
 
 import anyio
-from fastapi import APIRouter, Path, Query
+from fastapi import APIRouter, Path, Query, Response
 from fastapi.concurrency import run_in_threadpool
 from fastapi.responses import FileResponse
 
 from app.access.dependencies import Operator, Viewer
-from app.dependencies import ReportsService
+from app.comparison.order import Asked
+from app.dependencies import ComparisonsService, ReportsService
+from app.errors import Code, Refusal
 from app.jobs.jobs import Job
 from app.jobs.schemas import JobOut
+from app.prediction.schemas import Computing
 from app.problems import PROBLEMS, Refused, granted
 from app.reports.orders import Extent, Format
 from app.reports.service import LONGEST_S, Reports, Wanted
@@ -19,14 +22,52 @@ router = APIRouter(prefix="/api/v1/runs", tags=["reports"], responses=PROBLEMS)
 RunId = Annotated[int, Path(ge=1, le=2**53)]
 HowMuch = Annotated[Extent, Query(description="two pages or so, or all that there is to say")]
 LOOK_S = 0.05
+RUN_IDS = r"^[1-9][0-9]{0,14}(,[1-9][0-9]{0,14}){1,7}$"
+CHANNELS, POINTS = ("force_n", "displacement_m"), 700
+WAIT_S = 1.0
+TOO_LONG = Refusal(
+    Code.BUSY, "The comparison was not made in time: ask again when the machine has less to do"
+)
 
 
 class _Pdf(FileResponse):
     media_type = "application/pdf"
 
 
+class _PdfBytes(Response):
+    media_type = "application/pdf"
+
+
 class _Html(FileResponse):
     media_type = "text/html"
+
+
+@router.get(
+    "/compare/report.pdf",
+    operation_id="getComparisonReportPdf",
+    response_class=_PdfBytes,
+)
+async def get_comparison_report_pdf(
+    who: Viewer,
+    ids: Annotated[str, Query(pattern=RUN_IDS, description="2 to 8 runs, the baseline first")],
+    comparisons: ComparisonsService,
+    reports: ReportsService,
+) -> Response:
+    """Several runs beside one another, as PDF."""
+    numbers = tuple(int(number) for number in ids.split(","))
+    asked = Asked(numbers, CHANNELS, points=POINTS)
+    with anyio.move_on_after(LONGEST_S):
+        found = await run_in_threadpool(comparisons.of, asked, WAIT_S)
+        while isinstance(found, Computing):
+            found = await run_in_threadpool(comparisons.of, asked, WAIT_S)
+    if isinstance(found, Computing):
+        raise Refused(TOO_LONG)
+    job = granted(reports.compare(granted(found)))
+    if not await _ended(job) or job.result is None:
+        raise Refused(TOO_LONG)
+    name = f"forcerig-runs-{'-'.join(map(str, numbers))}.pdf"
+    head = {"Content-Disposition": f'inline; filename="{name}"'}
+    return _PdfBytes(granted(job.result), headers=head)
 
 
 @router.get("/{run_id}/report.pdf", operation_id="getRunReportPdf", response_class=_Pdf)
@@ -72,10 +113,7 @@ def give_up_run_report(
 async def _made(reports: Reports, wanted: Wanted, response: type[FileResponse]) -> FileResponse:
     found = await run_in_threadpool(reports.begin, wanted)
     if isinstance(found, Job):
-        with anyio.move_on_after(LONGEST_S):
-            while not found.ended.is_set():  # noqa: ASYNC110  # it is set by a thread
-                await anyio.sleep(LOOK_S)
-        if not found.ended.is_set():
+        if not await _ended(found):
             raise Refused(reports.too_long(wanted))
         found = await run_in_threadpool(reports.outcome, wanted, found)
     ready = granted(found)
@@ -83,3 +121,11 @@ async def _made(reports: Reports, wanted: Wanted, response: type[FileResponse]) 
     shown = "inline" if wanted.format is Format.PDF else "attachment"
     kind = response.media_type
     return response(ready.path, filename=name, media_type=kind, content_disposition_type=shown)
+
+
+async def _ended(job: Job[Any]) -> bool:
+    """Whether it has ended within the time that a report may take."""
+    with anyio.move_on_after(LONGEST_S):
+        while not job.ended.is_set():  # noqa: ASYNC110  # it is set by a thread
+            await anyio.sleep(LOOK_S)
+    return job.ended.is_set()

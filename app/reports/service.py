@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from app.comparison.schemas import RunComparison
 from app.db import Database
 from app.documents.canonical import fingerprint
 from app.errors import Code, Refusal
@@ -12,7 +13,7 @@ from app.jobs.jobs import Job, Jobs, JobState
 from app.recording.files import parquet_path
 from app.reports.branding import Branding, branding
 from app.reports.of_run import under_way
-from app.reports.orders import Extent, Format, Order, Sources, carry_out
+from app.reports.orders import Extent, Format, Order, Sources, carry_out, carry_out_comparison
 from app.runs import repository
 from app.runs.models import Run
 
@@ -45,6 +46,7 @@ class Reports:
         self._database = database
         self._sources = sources
         self._jobs: Jobs[Made] = Jobs("reports")
+        self._comparing: Jobs[bytes | Refusal] = Jobs("comparison-reports")
         self._making: dict[Wanted, Job[Made]] = {}
         self._lock = threading.Lock()
 
@@ -77,6 +79,12 @@ class Reports:
         detail = f"Run {wanted.run_id} was changed while its report was made: ask for it again"
         return Refusal(Code.BUSY, detail)
 
+    def compare(self, comparison: RunComparison) -> Job[bytes | Refusal] | Refusal:
+        """Set the report of runs that have been compared."""
+        return self._comparing.start(
+            "Comparison of runs", carry_out_comparison, self._sources, comparison
+        )
+
     def known(self, wanted: Wanted) -> Job[Made] | Refusal:
         """The job that makes a report, or made the last one."""
         with self._lock:
@@ -101,6 +109,7 @@ class Reports:
     def close(self) -> None:
         """Give all of them up."""
         self._jobs.close()
+        self._comparing.close()
 
     def _start(self, wanted: Wanted, path: Path) -> Job[Made] | Refusal:
         order = Order(wanted.run_id, wanted.extent, wanted.format, path)
