@@ -3,6 +3,7 @@
 import cmath
 import math
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from rtcore.control.response import compensation_response, quadrature_gains, shi
 from rtcore.rig.parameters import RigParameters
 
 
+@lru_cache(maxsize=32)  # what is in force is asked for again beside every draft
 def compensator_sheet(
     rig: RigParameters, controller: ControllerSettings, asked: CompensatorAsked
 ) -> CompensatorSheet | Refusal:

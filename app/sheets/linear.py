@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.analysis.linear import ForceLoop, coefficients, linear_rig
+from app.analysis.linear import Coefficients, ForceLoop, coefficients, linear_rig
 from app.controller.record import to_record
 from app.controller.settings import ControllerSettings
 from app.definitions.limits import RIG
@@ -26,6 +26,12 @@ def linearised(rig: RigParameters, amplitude_n: float, mean_n: float) -> StateSp
         return Refusal(Code.INVALID_REQUEST, f"mean_n: {error}", (fault,))
 
 
+@lru_cache(maxsize=256)
+def _coefficients(rig: RigParameters, amplitude_n: float, mean_n: float) -> Coefficients:
+    return coefficients(rig, amplitude_n, mean_n)
+
+
+@lru_cache(maxsize=32)  # what is in force is asked for again beside every draft
 def linear_sheet(
     rig: RigParameters, controller: ControllerSettings, asked: LinearAsked
 ) -> LinearSheet | Refusal:
@@ -44,7 +50,7 @@ def _at(
     rig: RigParameters, loop: ForceLoop, load_n: tuple[float, float], frequencies_hz: Floats
 ) -> LoopAt:
     closed = loop.closed_loops(frequencies_hz)
-    of_rig = coefficients(rig, *load_n)
+    of_rig = _coefficients(rig, *load_n)
     gain = np.abs(closed)
     return LoopAt(
         amplitude_n=load_n[0],

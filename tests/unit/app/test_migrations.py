@@ -178,3 +178,24 @@ def test_a_migration_that_fails_changes_nothing(old_database: Database) -> None:
     with old_database.engine.begin() as connection:
         check_0001(connection)
     old_database.upgrade()
+
+
+REVISIONS = ("interlocks", "controller", "rig_configuration")
+
+
+def test_revisions_of_one_kind_outlive_the_tables_of_the_others(empty_database: Database) -> None:
+    empty_database.upgrade()
+    with empty_database.engine.begin() as connection:
+        for kind in REVISIONS:
+            values = f"(1, '{{\"of\": \"{kind}\"}}', 'Ann', 'Why not', '2026-03-01 12:00:00')"
+            connection.execute(text(f"INSERT INTO {kind}_revisions VALUES {values}"))
+    empty_database.downgrade("0007")
+    empty_database.upgrade()
+    with empty_database.engine.connect() as connection:
+        counts = [
+            connection.execute(text(f"SELECT count(*) FROM {kind}_revisions")).scalar()
+            for kind in REVISIONS
+        ]
+        kept = connection.execute(text("SELECT document FROM interlocks_revisions")).scalar()
+    assert counts == [1, 0, 0]  # what the old version had no table for is gone, and no more
+    assert kept in ({"of": "interlocks"}, '{"of": "interlocks"}')

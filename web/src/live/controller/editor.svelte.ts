@@ -32,8 +32,11 @@ export class ControllerEditor {
   readonly faults: readonly Fault[] = $derived(this.checked?.errors ?? []);
   readonly canUndo = $derived((this.history?.past.length ?? 0) > 0);
   readonly canRedo = $derived((this.history?.future.length ?? 0) > 0);
-  /** The gains with which the branch is exact at the frequency that was asked for. */
-  readonly tuning: Tuning | null = $derived(this.checked?.compensator?.tuning ?? null);
+  /** The gains with which the branch is exact at the frequency that was asked for last. */
+  readonly tuning: Tuning | null = $derived.by(() => {
+    const found = this.checked?.compensator?.tuning ?? null;
+    return found?.frequency_hz === this.load.tune_hz ? found : null;
+  });
 
   /** Reads what is in force, and takes up the draft that this browser may have. */
   async open(): Promise<void> {
