@@ -72,5 +72,14 @@ def count_cycles(force_n: Chunks, gate_n: float = GATE_N) -> CountedCycles:
 
 def iter_cycles(signal: Chunks, gate: float = 0.0) -> Iterator[tuple[float, float, float]]:
     """Range, mean and count (1, or 0.5 of the residue) of each cycle, as they close."""
-    for extent, mean, count, _, _ in extract_cycles(turning_points(signal, gate)):
+    for extent, mean, count, _, _ in extract_cycles(_last_twice(turning_points(signal, gate))):
         yield extent, mean, count
+
+
+def _last_twice(points: Iterable[float]) -> Iterator[float]:
+    """The same signal: of one with two points only, the package tells nothing."""
+    point = None
+    for point in points:
+        yield point
+    if point is not None:
+        yield point
