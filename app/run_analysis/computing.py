@@ -12,6 +12,7 @@ import pyarrow.parquet as pq
 from app.analysis.predicted import Predicted
 from app.analysis.rainflow_counting import CountedCycles, count_cycles
 from app.analysis.time_domain import NEEDED, TimeReader
+from app.analysis.uncertainty import Known
 from app.analysis.walk import Columns
 from app.definitions.definition import Definition
 from app.definitions.windows import stretches
@@ -19,7 +20,8 @@ from app.histories.history import Histories
 from app.prediction.series_file import NAME as PREDICTED
 from app.recording.samples import Samples, open_samples
 from app.recording.whole_file import whole_file
-from app.rig_configuration.record import model_of
+from app.rig_configuration.configuration import FULL_SCALE_V
+from app.rig_configuration.record import configuration_of, model_of
 from app.run_analysis.schemas import VERSION, RunAnalysis
 from app.run_analysis.told import told
 from app.runs.measuring import read_definition
@@ -73,6 +75,7 @@ def analysis_of(subject: Subject, report: Progress) -> RunAnalysis:
         rig,
         predicted=_predicted(subject.folder),
         first_tick=first_tick,
+        known=known_of(subject.rig),
     )
     for chunk in _chunks(samples, NEEDED, report, 0.0, _READING):
         reader.take(chunk)
@@ -90,6 +93,17 @@ def analysis_of_records(
     applied = count_cycles([records["force_n"]])
     asked = count_cycles([records["force_command_n"]])
     return told(reader.result(), asked, applied, period_s)
+
+
+def known_of(rig: Mapping[str, Any]) -> Known | None:
+    """What the configuration that a run was made with says of the load cell; None where it says nothing."""
+    configuration = configuration_of(rig)
+    if configuration is None or configuration.calibrations.load_cell.class_percent is None:
+        return None
+    cell = configuration.calibrations.load_cell
+    full_n = abs(cell.gain) * FULL_SCALE_V
+    said = f"its calibration: {cell.class_percent:g} % of {full_n / 1000:.3g} kN"
+    return Known(load_cell_n=0.01 * cell.class_percent * full_n, load_cell_from=said)
 
 
 def _counted(samples: Samples, channel: str, report: Progress, done: float) -> CountedCycles:
