@@ -1,10 +1,13 @@
 """The first page: what was tested, by whom, on what, with what, and what it came to."""
 
+from datetime import date, datetime
+
 from app.documents.units import say
 from app.reports.numbers import NOTHING, duration, moment, quantity, spoken
 from app.reports.report import Column, Facts, Item, Row, Table, Tone, Verdict, Words
 from app.reports.subject import Document, Subject
-from app.rig_configuration.configuration import Calibration, TypePlate
+from app.rig_configuration.configuration import Calibration, Calibrations, TypePlate
+from app.rig_configuration.due import CalibrationWord, calibration_states
 from app.rig_configuration.record import KEY, configuration_of
 from app.runs.results_schemas import JudgedCriterion
 
@@ -49,7 +52,7 @@ def _facts(subject: Subject) -> list[tuple[str, str]]:
         ("Operator", noted.operator or "not noted"),
         ("Started", moment(subject.started_at)),
         ("Ended", moment(subject.ended_at)),
-        *_rig(frozen.rig),
+        *_rig(frozen.rig, subject.started_at),
         ("Controller", _controller(subject)),
         ("Software", f"forcerig {subject.software}"),
         ("Prediction", "" if subject.prediction is None else subject.prediction.verdict.value),
@@ -59,7 +62,7 @@ def _facts(subject: Subject) -> list[tuple[str, str]]:
     return [(name, value) for name, value in facts if value and value != NOTHING]
 
 
-def _rig(kept: Document) -> list[tuple[str, str]]:
+def _rig(kept: Document, at: datetime | None) -> list[tuple[str, str]]:
     """What it was tested on, with revision and serial numbers where the run keeps a configuration."""
     sensors = kept.get("sensors", {})
     span = sensors.get("force_range_n")
@@ -77,7 +80,15 @@ def _rig(kept: Document) -> list[tuple[str, str]]:
         ("Rig", _plate(configuration.rig)),
         ("Rig configuration", f"revision {kept[KEY].get('revision', NOTHING)}"),
         ("Load cell", ", ".join(filter(None, [_plate(calibrated), cell, known]))),
+        ("Overdue", "" if at is None else _overdue(configuration.calibrations, at.date())),
     ]
+
+
+def _overdue(calibrations: Calibrations, on: date) -> str:
+    """The sensors whose certificates no longer held on the day of the run."""
+    states = calibration_states(calibrations, on)
+    late = [s for s in states if s.word is CalibrationWord.OVERDUE]
+    return ", ".join(f"calibration of {s.sensor.replace('_', ' ')} {s.text}" for s in late)
 
 
 def _plate(of: TypePlate | Calibration) -> str:
