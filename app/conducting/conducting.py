@@ -11,6 +11,7 @@ from app.definitions.definition import Definition
 from app.definitions.outline import outline
 from app.definitions.responses import FrequencyResponse
 from rtcore.modes import Mode
+from rtcore.rig.parameters import RigParameters
 
 LOOK_TICKS = 80  # 20 ms: how often it is decided what to leave out
 
@@ -19,11 +20,16 @@ class Conducting:
     """Takes a run as it goes by; says what to skip, and which points there are."""
 
     def __init__(
-        self, definition: Definition, period_s: float, first_tick: int | None = None
+        self,
+        definition: Definition,
+        period_s: float,
+        first_tick: int | None = None,
+        rig: RigParameters | None = None,
     ) -> None:
+        """`first_tick` and `rig` as of `Responding`."""
         scores = scores_of(definition)
         self.adapts = bool(scores)
-        self.responding = Responding(definition, period_s, first_tick)
+        self.responding = Responding(definition, period_s, first_tick, rig)
         self._conductor = Conductor(scores, period_s)
         self._period_s = period_s
         self._ticks = sum(block.duration_s for block in outline(definition).blocks) / period_s

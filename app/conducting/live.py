@@ -20,6 +20,7 @@ from app.link.commander import Answer
 from app.link.life import Life, RingReader
 from app.recording.bins import Columns
 from rtcore.codes import Opcode
+from rtcore.rig.parameters import RigParameters
 
 _log = logging.getLogger(__name__)
 LOOK_S = 0.02
@@ -41,9 +42,10 @@ class Loop(Protocol):
 
 
 class Known(NamedTuple):
-    """A run that has a frequency response, and the ticks of it that are on the disk before one."""
+    """A run that has a frequency response, the rig's model, and the ticks that are on the disk before one."""
 
     definition: Definition
+    rig: RigParameters | None
     recorded: Callable[[int], Iterator[Columns]]
 
 
@@ -171,7 +173,7 @@ class LiveResponses:
         recorded = iter(()) if from_its_beginning else known.recorded(first)
         before = next(recorded, None)
         began_at = first if before is None else int(before["tick"][0])
-        conducting = Conducting(known.definition, self._period_s, began_at)
+        conducting = Conducting(known.definition, self._period_s, began_at, known.rig)
         while before is not None:
             conducting.take(before)
             before = next(recorded, None)

@@ -12,6 +12,7 @@ from app.definitions.definition import Definition
 from app.definitions.responses import FrequencyResponse
 from app.definitions.windows import stretches
 from app.documents.tree import Path
+from rtcore.rig.parameters import RigParameters
 
 CHANNELS = channels_of(TRANSFERS.values())
 NEEDS = tuple(dict.fromkeys([POSITION, *NEEDED, *CHANNELS]))
@@ -32,12 +33,19 @@ class Responding:
     """Takes a run chunk by chunk, each with the columns `NEEDS`; gives its points."""
 
     def __init__(
-        self, definition: Definition, period_s: float, first_tick: int | None = None
+        self,
+        definition: Definition,
+        period_s: float,
+        first_tick: int | None = None,
+        rig: RigParameters | None = None,
     ) -> None:
-        """`first_tick` is that of the run, where it is not that of its first record."""
+        """`first_tick` is that of the run, where it is not that of its first record.
+
+        With a model of the `rig` the unit's own stiffness and admittance are told too.
+        """
         self._definition = definition
         self._walk = Walk(stretches(definition), period_s, first_tick, also=CHANNELS)
-        self._stepped = SteppedSine(period_s)
+        self._stepped = SteppedSine(period_s, rig=rig)
         self._multisines: dict[Path, Multisine] = {}
 
     def take(self, chunk: Columns, also: Callable[[Part], None] | None = None) -> None:

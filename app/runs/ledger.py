@@ -113,6 +113,7 @@ class Ledger:
                     period_s=run.period_ns * 1e-9,
                     first_tick=recorded.first_tick if recorded.first_tick >= 0 else None,
                     completed=ending.outcome is Outcome.COMPLETED,
+                    rig=run.rig,
                 )
             )
 

@@ -23,6 +23,7 @@ from app.recording.samples import Samples, open_samples
 from app.runs.acquiring import asked
 from app.runs.acquisition_files import AcquisitionWriter, acquisition_path, writing
 from app.runs.response_file import write_points
+from rtcore.rig.parameters import RigParameters
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,7 @@ class Subject:
     period_s: float
     first_tick: int | None
     completed: bool
+    rig: Mapping[str, Any] | None = None  # its model, for the response of the unit under test
 
 
 def measure(subject: Subject, histories: Histories | None = None) -> Judged | None:
@@ -53,7 +55,7 @@ def measure(subject: Subject, histories: Histories | None = None) -> Judged | No
     )
     with ExitStack() as stack:
         tables = _tables(stack, subject, definition, first_tick)
-        responding = Responding(definition, subject.period_s, first_tick)
+        responding = Responding(definition, subject.period_s, first_tick, read_rig(subject.rig))
         responds = bool(responses_in(definition))
         needs = [table.needs for table, _ in tables] + ([NEEDS] if responds else [])
         for chunk in _chunks(samples, needs):
@@ -75,6 +77,14 @@ def read_definition(data: Mapping[str, Any], histories: Histories | None) -> Def
     if isinstance(definition, Refusal):
         raise ValueError(f"the definition of the run cannot be read: {definition.detail}")
     return definition
+
+
+def read_rig(data: Mapping[str, Any] | None) -> RigParameters | None:
+    """The model of the rig that a run was made with; None where it cannot be read any more."""
+    try:
+        return RigParameters.model_validate(data)
+    except ValueError:
+        return None
 
 
 def _tables(

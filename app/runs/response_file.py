@@ -11,7 +11,7 @@ from app.conducting.found import Found
 from app.recording.whole_file import whole_file
 
 NAME = "frequency-response.json"
-VERSION = 1
+VERSION = 2
 
 
 def write_points(folder: Path, points: Sequence[Found]) -> None:

@@ -11,7 +11,7 @@ from app.histories.history import Histories
 from app.recording.bins import Columns
 from app.recording.samples import open_samples
 from app.runs import repository
-from app.runs.measuring import read_definition
+from app.runs.measuring import read_definition, read_rig
 from app.runs.response_series import frame_of
 
 
@@ -29,12 +29,12 @@ class KnownRuns:
             run = repository.get(session, run_id)
             if run is None:
                 return None
-            written = run.definition
+            written, rig = run.definition, run.rig
         definition = read_definition(written, self._histories)
         folder = self._runs_dir / str(run_id)
         if not responses_in(definition):
             return None
-        return Known(definition, lambda tick: _recorded(folder, tick))
+        return Known(definition, read_rig(rig), lambda tick: _recorded(folder, tick))
 
 
 def _recorded(folder: Path, before_tick: int) -> Iterator[Columns]:

@@ -5,7 +5,16 @@ from typing import Literal
 from pydantic import BaseModel
 
 Method = Literal["stepped_sine", "multisine", "sweep"]
-TransferName = Literal["force", "plant", "motion", "disturbance", "compliance", "position"]
+TransferName = Literal[
+    "force",
+    "plant",
+    "motion",
+    "disturbance",
+    "compliance",
+    "position",
+    "stiffness",
+    "admittance",
+]
 
 
 class ResponsePointOut(BaseModel):

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import cast
 
 from app.analysis.response.extremes import Extreme, find_extremes
-from app.analysis.response.transfers import TRANSFERS
+from app.analysis.response.transfers import TRANSFERS, UNIT_TRANSFERS
 from app.conducting.found import Found
 from app.definitions.responses import FrequencyResponse
 from app.runs.response_schemas import (
@@ -28,7 +28,7 @@ def point_out(found: Found) -> ResponsePointOut:
     """A point as it is told."""
     point = found.point
     low, high = point.gain_95
-    has_db = TRANSFERS[point.transfer].unit == NO_UNIT and point.gain > 0
+    has_db = _has_no_unit(point.transfer) and point.gain > 0
     return ResponsePointOut(
         frequency_hz=point.frequency_hz,
         amplitude_n=point.amplitude_n,
@@ -95,7 +95,7 @@ def _series(key: tuple[int, str, float, float], group: Sequence[Found]) -> Respo
 
 def _extremes(ordered: Sequence[Found]) -> ExtremesOut:
     points = [found.point for found in ordered]
-    if TRANSFERS[points[0].transfer].unit != NO_UNIT:
+    if not _has_no_unit(points[0].transfer):
         return ExtremesOut()
     response = [cmath.rect(p.gain, math.radians(p.phase_deg)) for p in points]
     found = find_extremes([p.frequency_hz for p in points], response)
@@ -105,6 +105,10 @@ def _extremes(ordered: Sequence[Found]) -> ExtremesOut:
         minus_3_db_hz=found.minus_3_db_hz,
         minus_90_deg_hz=found.minus_90_deg_hz,
     )
+
+
+def _has_no_unit(transfer: str) -> bool:
+    return (TRANSFERS | UNIT_TRANSFERS)[transfer].unit == NO_UNIT
 
 
 def _peak(extreme: Extreme | None) -> PeakOut | None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Any, Protocol, cast
 
-from app.analysis.response.transfers import TRANSFERS
+from app.analysis.response.transfers import TRANSFERS, UNIT_TRANSFERS
 from app.conducting.found import Found
 from app.conducting.responding import NEEDS, Responding, responses_in
 from app.db import Database
@@ -18,7 +18,7 @@ from app.jobs.jobs import Job, Jobs, JobState
 from app.prediction.schemas import Computing
 from app.recording.samples import open_samples
 from app.runs import repository
-from app.runs.measuring import Subject, read_definition
+from app.runs.measuring import Subject, read_definition, read_rig
 from app.runs.no_data import no_data
 from app.runs.response_file import read_points, write_points
 from app.runs.response_model import Load, ModelCurves
@@ -33,6 +33,7 @@ from app.runs.response_series import bands_of, series_of
 
 _log = logging.getLogger(__name__)
 MODEL_WAIT_S = 1.0
+EVERY = TRANSFERS | UNIT_TRANSFERS
 
 
 class SoFar(Protocol):
@@ -82,7 +83,7 @@ class Responses:
         series = series_of(points, transfer, run.asked)
         return ResponseOut(
             transfer=transfer,
-            unit=TRANSFERS[transfer].unit,
+            unit=EVERY[transfer].unit,
             available=_available(points),
             series=series,
             model=self._model(run, series) if transfer == "force" else [],
@@ -154,6 +155,7 @@ class Responses:
                 period_s=run.period_ns * 1e-9,
                 first_tick=run.first_tick,
                 completed=False,
+                rig=run.rig,
             )
             made_with = {"rig": run.rig, "controller": run.controller}
             under_way, without = run.outcome is None, no_data(run)
@@ -171,7 +173,8 @@ def find_points(report: Any, subject: Subject, histories: Histories | None) -> N
         raise ValueError("there are no samples of the run")
     first_tick = samples.first_tick if subject.first_tick is None else subject.first_tick
     definition = read_definition(subject.definition, histories)
-    responding = Responding(definition, subject.period_s, first_tick)
+    rig = read_rig(subject.rig)
+    responding = Responding(definition, subject.period_s, first_tick, rig)
     ticks = max(1, samples.last_tick - samples.first_tick + 1)
     for chunk in samples.chunks(NEEDS, samples.first_tick, samples.last_tick):
         responding.take(chunk)
@@ -183,4 +186,4 @@ def find_points(report: Any, subject: Subject, histories: Histories | None) -> N
 def _available(points: Iterable[Found]) -> list[TransferName]:
     """Those of which there are points; of none yet, the one that is always asked for."""
     there = {found.point.transfer for found in points}
-    return [cast(TransferName, name) for name in TRANSFERS if name in there] or ["force"]
+    return [cast(TransferName, name) for name in EVERY if name in there] or ["force"]

@@ -78,12 +78,13 @@ def test_it_has_the_models_curve_bands_extremes_and_other_transfers(ready: Conso
     (series,) = found["series"]
     assert series["method"] == "stepped_sine"
     assert series["extremes"]["peak"]["frequency_hz"] == pytest.approx(35, abs=10)
-    assert {"force", "plant"} <= set(found["available"])
+    assert {"force", "plant", "stiffness"} <= set(found["available"])
     model = wait_for(lambda: _response(ready, run_id)["model"], "the model's curve")[0]
     at = min(range(len(model["gain"])), key=lambda i: abs(model["frequencies_hz"][i] - 20))
     assert 20 * math.log10(model["gain"][at]) == pytest.approx(
         series["points"][0]["gain_db"], abs=1
     )
+    assert _response(ready, run_id, "stiffness")["unit"] == "N/m"
     plant = _response(ready, run_id, "plant")
     assert plant["unit"] == "N"
     assert plant["series"][0]["points"][0]["gain_db"] is None

@@ -24,6 +24,7 @@ from app.recording.bins import Columns
 from rtcore.channels import CHANNELS
 from rtcore.codes import Opcode, Reply
 from rtcore.modes import Mode
+from rtcore.rig.parameters import load_rig
 from rtcore.virtual import Virtual
 from tests.unit.app.conducting.responses import play, points_of, response_test
 
@@ -56,7 +57,7 @@ class Rig:
 
     def follow(self, recorded: Any = None) -> LiveResponses:
         """Begin to follow it, as a console that has just been started."""
-        known = Known(self._definition, recorded or (lambda tick: iter(())))
+        known = Known(self._definition, load_rig(), recorded or (lambda tick: iter(())))
         follower = LiveResponses(self, lambda run: known, self._tell, RIG.period_s)
         follower.look()
         return follower
@@ -141,7 +142,7 @@ def test_a_point_is_told_within_half_a_second_of_its_last_cycle() -> None:
         whole = next(tick for tick, found in of_point if found.point.cycles == 8)
         counted = _last_tick_counted(records, hz)
         assert 0 < whole - counted <= 2 * LOOK
-        assert {found.point.transfer for _, found in of_point} >= {"force", "plant"}
+        assert {found.point.transfer for _, found in of_point} >= {"force", "plant", "stiffness"}
 
 
 def _last_tick_counted(records: Any, hz: float) -> int:

@@ -7,7 +7,7 @@ from typing import get_args
 import pytest
 
 from app.analysis.response.point import Interval, ResponsePoint
-from app.analysis.response.transfers import TRANSFERS
+from app.analysis.response.transfers import TRANSFERS, UNIT_TRANSFERS
 from app.conducting.found import Found
 from app.definitions.responses import FrequencyResponse
 from app.runs.response_file import NAME, read_points, write_points
@@ -39,7 +39,7 @@ def test_points_are_read_as_they_were_written(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"[]", b'{"version": 99, "points": []}', b'{"version": 1, "points": [{}]}']
+    "content", [b"", b"[]", b'{"version": 99, "points": []}', b'{"version": 2, "points": [{}]}']
 )
 def test_what_is_no_such_file_counts_as_not_there(tmp_path: Path, content: bytes) -> None:
     assert read_points(tmp_path) is None
@@ -82,4 +82,4 @@ def test_bands_are_those_of_the_test() -> None:
 
 
 def test_every_transfer_can_be_asked_for() -> None:
-    assert get_args(TransferName) == tuple(TRANSFERS)
+    assert get_args(TransferName) == (*TRANSFERS, *UNIT_TRANSFERS)
