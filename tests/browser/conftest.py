@@ -57,16 +57,20 @@ def watched(browser: Browser, console: ConsoleProcess, *expected: str) -> Iterat
     complaints: list[str] = []
     own = (console.url, console.status()["stop_url"], "data:", "blob:")
 
+    def complain(text: str) -> None:
+        if not any(word in text for word in expected):
+            complaints.append(text)
+
     def heard(message: ConsoleMessage) -> None:
-        if message.type == "error" and not any(word in message.text for word in expected):
-            complaints.append(message.text)
+        if message.type == "error":
+            complain(message.text)
 
     def asked(request: Request) -> None:
         if not request.url.startswith(own):
             complaints.append(f"asked {request.url}")
 
     page.on("console", heard)
-    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on("pageerror", lambda error: complain(str(error)))
     page.on("request", asked)
     yield page
     context.close()

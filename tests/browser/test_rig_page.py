@@ -1,0 +1,116 @@
+"""The Rig page: configuration, static and linear analysis, and the rig in three dimensions."""
+
+import hashlib
+from collections.abc import Iterator
+
+import pytest
+from playwright.sync_api import Browser, Frame, Page, expect, sync_playwright
+
+from tests.browser.conftest import FLAGS, REFUSED, chromium, watched
+from tests.browser.session import take_command
+from tests.console_process import ConsoleProcess, wait_for
+
+pytestmark = [pytest.mark.browser, pytest.mark.slow]
+PATIENCE_MS = 60_000
+DRAWN = [flag for flag in FLAGS if flag != "--disable-gpu"]
+SOFTWARE = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+NO_EVAL = "Evaluating a string as JavaScript"  # viser's splat sorter, which nothing here needs
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Browser]:
+    """A browser that draws in three dimensions, by the processor."""
+    path = chromium()
+    if path is None:
+        pytest.skip("no Chromium: make test installs one where it may")
+    with sync_playwright() as playwright:
+        made = playwright.chromium.launch(executable_path=path, args=[*DRAWN, *SOFTWARE])
+        yield made
+        made.close()
+
+
+@pytest.fixture
+def page(browser: Browser, console: ConsoleProcess) -> Iterator[Page]:
+    with watched(browser, console, REFUSED, NO_EVAL) as page:
+        page.context.request.get(console.url + console.new_link())
+        page.set_viewport_size({"width": 800, "height": 500})
+        page.set_default_timeout(PATIENCE_MS)
+        yield page
+
+
+def test_the_configuration_is_changed_as_a_draft_and_put_in_force_with_a_reason(
+    console: ConsoleProcess, page: Page
+) -> None:
+    page.goto(f"{console.url}/#/rig/configuration")
+    take_command(page)
+    page.get_by_test_id("edit-configuration").click()
+    page.locator("[data-path='unit_under_test.serial_number']").fill("TRA-7")
+    expect(page.get_by_test_id("configuration-changes")).to_contain_text("TRA-7")
+    page.get_by_test_id("configuration-why").fill("Another unit")
+    page.get_by_test_id("apply-configuration").click()
+    expect(page.get_by_test_id("configuration-save")).to_be_hidden()
+    found = console.http.get("/rig-configuration").json()
+    assert found["document"]["unit_under_test"]["serial_number"] == "TRA-7"
+    assert found["why"] == "Another unit"
+    page.get_by_test_id("configuration-history").click()
+    expect(page.locator("table")).to_contain_text("Another unit")
+
+
+def test_the_rigs_own_orifice_is_among_the_static_characteristics(
+    console: ConsoleProcess, page: Page
+) -> None:
+    page.goto(f"{console.url}/#/rig/static")
+    chart = page.get_by_test_id("static-force_n")
+    expect(chart.locator(".marked")).to_have_text("0.85 mm")
+    expect(chart.locator(".one")).to_have_count(5)
+
+
+def test_the_loop_has_the_margins_of_the_rigs_sheet(console: ConsoleProcess, page: Page) -> None:
+    page.goto(f"{console.url}/#/rig/linear")
+    row = page.get_by_test_id("loop-table").locator("tbody tr").nth(1)  # 2 kN
+    for figure in ("2.00", "279", "1.68", "10.0", "1.58"):
+        expect(row).to_contain_text(figure)
+
+
+def canvas_of(page: Page) -> Frame:
+    """The frame of the view, once its canvas is there."""
+    page.get_by_test_id("scene-anyway").click()
+    element = page.get_by_test_id("scene-frame").element_handle(timeout=PATIENCE_MS)
+    frame = element.content_frame() if element else None
+    assert frame is not None
+    frame.wait_for_selector("canvas", timeout=PATIENCE_MS)
+    return frame
+
+
+def picture(page: Page) -> tuple[str, int]:
+    """What is seen of the view: its digest, and how many kilobytes it takes as PNG (blank: next to none)."""
+    box = page.get_by_test_id("scene-frame").bounding_box()
+    assert box is not None
+    box["height"] -= 60  # without the legend
+    png = page.screenshot(clip=box, timeout=PATIENCE_MS, caret="initial")  # type: ignore[arg-type]
+    return hashlib.sha256(png).hexdigest(), len(png) // 1000
+
+
+def test_the_view_is_drawn_and_moves_with_a_run(console: ConsoleProcess, page: Page) -> None:
+    console.make_ready()
+    run_id = console.start_run("step-2-kn")
+    console.ended_run(run_id)
+    page.goto(f"{console.url}/#/rig/view")
+    canvas_of(page)
+    page.get_by_test_id("scene-run").select_option(str(run_id))
+    page.get_by_test_id("scene-time").fill("0")
+    wait_for(lambda: picture(page)[1] > 8, "a picture")
+    wait_for(lambda: picture(page)[0] == picture(page)[0], "a picture that stands still")
+    at_rest = picture(page)[0]
+    page.get_by_test_id("enlarge-deformation").fill("100")
+    page.get_by_test_id("scene-time").fill("1")
+    wait_for(lambda: picture(page)[0] != at_rest, "another picture")
+
+
+def test_the_page_says_what_has_become_of_the_view(console: ConsoleProcess, page: Page) -> None:
+    page.route("**/api/v1/scene*", lambda route: route.abort())
+    page.route("**/api/v1/scene/**", lambda route: route.abort())
+    page.goto(f"{console.url}/#/rig/view")
+    page.get_by_test_id("scene-anyway").click()
+    expect(page.get_by_test_id("scene-detail")).to_contain_text("does not answer")
+    expect(page.get_by_test_id("stop")).to_be_enabled()
