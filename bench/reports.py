@@ -43,6 +43,10 @@ def figures(duration_s: float) -> Iterator[Figure]:
             "file_b", "the run's file", float(size), "B", note=f"{duration_s:.0f} s of run"
         )
         yield Figure("plain_read_s", "pyarrow reads one column whole", plain_s, "s")
+        order = Order(run_id, Extent.FULL, Format.PDF, folder / "first.pdf")
+        first_s, _ = _timed(lambda: run_apart(carry_out, sources, order, report=lambda _: None))
+        note = "analyses the run too, and keeps that: once for every report and page of the run"
+        yield Figure("first_s", "the very first, whole, PDF", first_s, "s", note=note)
         for extent in (Extent.BRIEF, Extent.FULL):
             yield from _report(
                 sources, Order(run_id, extent, Format.PDF, folder / "r.pdf"), plain_s
