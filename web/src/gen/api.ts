@@ -1229,6 +1229,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/runs/compare/report.pdf": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Get Comparison Report Pdf
+         * @description Several runs beside one another, as PDF.
+         */
+        get: operations["getComparisonReportPdf"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/runs/operators": {
         parameters: {
             query?: never;
@@ -5942,7 +5962,7 @@ export interface components {
              * Transfer
              * @enum {string}
              */
-            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position";
+            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance";
             /**
              * Type
              * @default response
@@ -5956,7 +5976,7 @@ export interface components {
          */
         ResponseOut: {
             /** Available */
-            available: ("force" | "plant" | "motion" | "disturbance" | "compliance" | "position")[];
+            available: ("force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance")[];
             /** Bands */
             bands: components["schemas"]["BandOut"][];
             /** Model */
@@ -5968,7 +5988,7 @@ export interface components {
              * Transfer
              * @enum {string}
              */
-            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position";
+            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance";
             /** Unit */
             unit: string;
         };
@@ -10238,6 +10258,38 @@ export interface operations {
             };
         };
     };
+    getComparisonReportPdf: {
+        parameters: {
+            query: {
+                /** @description 2 to 8 runs, the baseline first */
+                ids: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/pdf": string;
+                };
+            };
+            /** @description A problem document (RFC 9457) */
+            default: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     listRunOperators: {
         parameters: {
             query?: never;
@@ -10780,7 +10832,7 @@ export interface operations {
         parameters: {
             query?: {
                 /** @description from which channel to which */
-                transfer?: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position";
+                transfer?: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance";
                 wait_s?: number;
             };
             header?: never;
