@@ -105,7 +105,7 @@ class Multisine:
         return [
             self._point(transfer, best, i, periods * line, mean_n, amplitude_n)
             for i, line in enumerate(self._grid.lines)
-            if np.isfinite(best.gain[i])
+            if np.isfinite(best.gain[i]) and np.isfinite(best.coherence[i])
         ]
 
     def _point(

@@ -7,7 +7,8 @@ from app.analysis.response.transfers import TRANSFERS
 from app.analysis.walk import NEEDED, POSITION, Columns, Part, Walk
 from app.conducting.found import Found
 from app.conducting.multisines import Multisine
-from app.definitions.blocks import Block, Repeat
+from app.conducting.sweeps import SweptSine
+from app.definitions.blocks import Block, Repeat, Sweep
 from app.definitions.definition import Definition
 from app.definitions.responses import FrequencyResponse
 from app.definitions.windows import stretches
@@ -16,6 +17,16 @@ from rtcore.rig.parameters import RigParameters
 
 CHANNELS = channels_of(TRANSFERS.values())
 NEEDS = tuple(dict.fromkeys([POSITION, *NEEDED, *CHANNELS]))
+
+
+def responds(definition: Definition | Repeat) -> bool:
+    """Whether there is anything in a test that has a response: sines, multisines, sweeps."""
+    return any(
+        responds(block)
+        if isinstance(block, Repeat)
+        else isinstance(block, FrequencyResponse | Sweep)
+        for block in definition.blocks
+    )
 
 
 def responses_in(definition: Definition | Repeat) -> list[FrequencyResponse]:
@@ -47,11 +58,14 @@ class Responding:
         self._walk = Walk(stretches(definition), period_s, first_tick, also=CHANNELS)
         self._stepped = SteppedSine(period_s, rig=rig)
         self._multisines: dict[Path, Multisine] = {}
+        self._sweeps: dict[Path, SweptSine] = {}
 
     def take(self, chunk: Columns, also: Callable[[Part], None] | None = None) -> None:
         """The next ticks of the run; each part of a response goes to `also` too."""
         for part in self._walk.take(chunk):
             asked = block_at(self._definition, part.stretch.path)
+            if isinstance(asked, Sweep):
+                self._sweep(part, asked).take(part)
             if not isinstance(asked, FrequencyResponse):
                 continue
             if asked.method == "multisine":
@@ -65,11 +79,18 @@ class Responding:
         """All that there are so far; the last may still change."""
         stepped = [Found("stepped_sine", point) for point in self._stepped.points()]
         multisines = [found for one in self._multisines.values() for found in one.points()]
-        return stepped + multisines
+        sweeps = [found for one in self._sweeps.values() for found in one.points()]
+        return stepped + multisines + sweeps
 
     def latest(self) -> list[Found]:
         """The stepped sine that is being measured now, of each transfer."""
         return [Found("stepped_sine", point) for point in self._stepped.latest()]
+
+    def _sweep(self, part: Part, asked: Sweep) -> SweptSine:
+        path = part.stretch.path
+        if path not in self._sweeps:
+            self._sweeps[path] = SweptSine(part.stretch.block, asked)
+        return self._sweeps[path]
 
     def _multisine(self, part: Part, asked: FrequencyResponse) -> Multisine:
         path = part.stretch.path

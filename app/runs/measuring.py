@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 from app.analysis.acquisition.table import Acquisition
 from app.analysis.predicted import Predicted
 from app.analysis.walk import NEEDED, POSITION, Columns
-from app.conducting.responding import NEEDS, Responding, responses_in
+from app.conducting.responding import NEEDS, Responding, responds
 from app.controller.settings import ControllerSettings
 from app.definitions.definition import Definition
 from app.definitions.reading import definition_from
@@ -56,17 +56,17 @@ def measure(subject: Subject, histories: Histories | None = None) -> Judged | No
     with ExitStack() as stack:
         tables = _tables(stack, subject, definition, first_tick)
         responding = Responding(definition, subject.period_s, first_tick, read_rig(subject.rig))
-        responds = bool(responses_in(definition))
-        needs = [table.needs for table, _ in tables] + ([NEEDS] if responds else [])
+        has_responses = responds(definition)
+        needs = [table.needs for table, _ in tables] + ([NEEDS] if has_responses else [])
         for chunk in _chunks(samples, needs):
             run.take(chunk)
-            if responds:
+            if has_responses:
                 responding.take(chunk)
             for table, file in tables:
                 file.append(table.take(chunk))
         for table, file in tables:
             file.append(table.close())
-    if responds:
+    if has_responses:
         write_points(subject.folder, responding.points())
     return judge_measured(definition, run.result(), completed=subject.completed)
 

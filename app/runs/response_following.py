@@ -5,7 +5,7 @@ from pathlib import Path
 
 from app.conducting.found import Found
 from app.conducting.live import Known
-from app.conducting.responding import NEEDS, responses_in
+from app.conducting.responding import NEEDS, responds
 from app.db import Database
 from app.histories.history import Histories
 from app.recording.bins import Columns
@@ -32,7 +32,7 @@ class KnownRuns:
             written, rig = run.definition, run.rig
         definition = read_definition(written, self._histories)
         folder = self._runs_dir / str(run_id)
-        if not responses_in(definition):
+        if not responds(definition):
             return None
         return Known(definition, read_rig(rig), lambda tick: _recorded(folder, tick))
 

@@ -9,7 +9,7 @@ from typing import Any, Protocol, cast
 
 from app.analysis.response.transfers import TRANSFERS, UNIT_TRANSFERS
 from app.conducting.found import Found
-from app.conducting.responding import NEEDS, Responding, responses_in
+from app.conducting.responding import NEEDS, Responding, responds, responses_in
 from app.db import Database
 from app.definitions.responses import FrequencyResponse
 from app.errors import Code, Refusal
@@ -52,6 +52,7 @@ class _Run:
     under_way: bool
     made_with: dict[str, Any]
     asked: Sequence[FrequencyResponse]
+    responds: bool
     no_data: Refusal
 
 
@@ -114,7 +115,7 @@ class Responses:
     def _kept(self, run_id: int, run: _Run, wait_s: float) -> list[Found] | Computing | Refusal:
         folder = run.subject.folder
         found = read_points(folder)
-        if found is not None or not run.asked:
+        if found is not None or not run.responds:
             return found or []
         if open_samples(folder) is None:
             return run.no_data
@@ -160,10 +161,11 @@ class Responses:
             made_with = {"rig": run.rig, "controller": run.controller}
             under_way, without = run.outcome is None, no_data(run)
         try:
-            asked = responses_in(read_definition(subject.definition, self._histories))
+            definition = read_definition(subject.definition, self._histories)
         except ValueError as error:
             return Refusal(Code.NO_DATA, f"Run {run_id}: {error}")
-        return _Run(subject, under_way, made_with, asked, without)
+        asked = responses_in(definition)
+        return _Run(subject, under_way, made_with, asked, responds(definition), without)
 
 
 def find_points(report: Any, subject: Subject, histories: Histories | None) -> None:
