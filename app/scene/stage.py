@@ -14,6 +14,7 @@ from app.scene.telling import LiveTold, RigTold, Told, View, ViewTold
 
 _log = logging.getLogger(__name__)
 MOST_VIEWS = 64  # that are remembered: the oldest goes
+AMBIENT = 1.5
 LABELS_EACH = 8  # frames: figures that change faster cannot be read
 CAMERA_M, LOOKS_AT_M, FIELD_RAD = (0.86, -1.9, 0.75), (0.94, 0.0, -0.03), 0.7
 
@@ -45,7 +46,10 @@ class Stage:
         server.initial_camera.look_at = LOOKS_AT_M
         server.initial_camera.fov = FIELD_RAD
         server.scene.world_axes.visible = False
-        server.scene.configure_default_lights(cast_shadow=False)  # too dear without a graphics card
+        # Shadows and reflections are too dear without a graphics card: seconds a picture.
+        server.scene.configure_default_lights(cast_shadow=False)
+        server.scene.configure_environment_map(hdri=None)
+        server.scene.add_light_ambient("/light", intensity=AMBIENT)
 
         @server.on_client_connect
         async def _(client: viser.ClientHandle) -> None:  # async: where `looking` is known

@@ -4,7 +4,7 @@ import hashlib
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, Frame, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.browser.conftest import FLAGS, REFUSED, chromium, watched
 from tests.browser.session import take_command
@@ -72,16 +72,6 @@ def test_the_loop_has_the_margins_of_the_rigs_sheet(console: ConsoleProcess, pag
         expect(row).to_contain_text(figure)
 
 
-def canvas_of(page: Page) -> Frame:
-    """The frame of the view, once its canvas is there."""
-    page.get_by_test_id("scene-anyway").click()
-    element = page.get_by_test_id("scene-frame").element_handle(timeout=PATIENCE_MS)
-    frame = element.content_frame() if element else None
-    assert frame is not None
-    frame.wait_for_selector("canvas", timeout=PATIENCE_MS)
-    return frame
-
-
 def picture(page: Page) -> tuple[str, int]:
     """What is seen of the view: its digest, and how many kilobytes it takes as PNG (blank: next to none)."""
     box = page.get_by_test_id("scene-frame").bounding_box()
@@ -91,18 +81,19 @@ def picture(page: Page) -> tuple[str, int]:
     return hashlib.sha256(png).hexdigest(), len(png) // 1000
 
 
+@pytest.mark.timeout(400)  # every picture is drawn by the processor
 def test_the_view_is_drawn_and_moves_with_a_run(console: ConsoleProcess, page: Page) -> None:
     console.make_ready()
     run_id = console.start_run("step-2-kn")
     console.ended_run(run_id)
     page.goto(f"{console.url}/#/rig/view")
-    canvas_of(page)
     page.get_by_test_id("scene-run").select_option(str(run_id))
-    page.get_by_test_id("scene-time").fill("0")
-    wait_for(lambda: picture(page)[1] > 8, "a picture")
+    page.get_by_test_id("scene-anyway").click()
+    frame = page.frame_locator("[data-testid=scene-frame]")
+    expect(frame.locator("canvas").first).to_be_visible(timeout=PATIENCE_MS)
+    wait_for(lambda: picture(page)[1] > 5, "a picture")
     wait_for(lambda: picture(page)[0] == picture(page)[0], "a picture that stands still")
     at_rest = picture(page)[0]
-    page.get_by_test_id("enlarge-deformation").fill("100")
     page.get_by_test_id("scene-time").fill("1")
     wait_for(lambda: picture(page)[0] != at_rest, "another picture")
 
