@@ -1,0 +1,280 @@
+"""`forcerig bench estimators`: how right the estimators of the frequency response are, and how often.
+
+Each is held against a system whose response is a closed form, over many draws of its noise, and against
+the linearised rig. Told are the bias of the mean of all draws, and how many of the 95 % intervals hold
+the truth.
+"""
+
+from collections.abc import Callable, Iterable, Iterator
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+from scipy import signal
+
+from app.analysis.evidence import Kind, Sine, Stretch
+from app.analysis.response.bla import BestLinear, fast, robust
+from app.analysis.response.curve import Curve
+from app.analysis.response.periods import Periods, Realisation
+from app.analysis.response.spectral import Against, spectral_response
+from app.analysis.response.stepped import SteppedSine
+from app.analysis.response.swept import swept_response
+from app.analysis.response.transfers import TRANSFERS
+from app.analysis.walk import Part
+from bench.known_systems import LEAD_TICKS, PERIOD_S, RESONANT, WHITE, Complex, Cubic, Floats, Loop
+from bench.report import Figure, progress, show
+
+SEEDS = 200
+NOISE_N = 20.0
+AMPLITUDE_N = 1000.0
+BIAS_DB, BIAS_DEG = 0.02, 0.1
+HELD = (0.93, 0.97)
+
+
+class Draws(NamedTuple):
+    """What an estimator said over many draws: (draws, frequencies) gains and whether they held the truth."""
+
+    gain: Complex
+    gain_held: npt.NDArray[np.bool_]
+    phase_held: npt.NDArray[np.bool_]
+    truth: Complex
+
+
+def stepped(frequency_hz: float, cycles: int, colour: str, transfer: str = "force") -> Draws:
+    """The stepped sine in the closed loop."""
+    loop, ticks = Loop.typical(), round(cycles / frequency_hz / PERIOD_S)
+    at = np.arange(-LEAD_TICKS, ticks)
+    setpoint = AMPLITUDE_N * np.sin(2 * np.pi * frequency_hz * PERIOD_S * at)
+    truth = {"force": loop.response, "plant": loop.plant}[transfer]([frequency_hz])
+    sine = Sine(frequency_hz, AMPLITUDE_N, 0.0)
+    stretch = Stretch(0, ticks, Kind.CYCLES, sine=sine, cycles=cycles)
+    asked = {transfer: TRANSFERS[transfer]}
+    found = []
+    noise = {"white": WHITE, "resonant": RESONANT}[colour]
+    for output, valve in loop.run(setpoint, SEEDS, NOISE_N, noise):
+        columns = {
+            "tick": np.arange(ticks),
+            "force_command_n": setpoint[LEAD_TICKS:].astype(np.float32),
+            "force_n": output.astype(np.float32),
+            "valve_command": valve.astype(np.float32),
+        }
+        estimator = SteppedSine(PERIOD_S, asked)
+        whole = np.ones(ticks, np.bool_)
+        estimator.take(Part(stretch, True, np.arange(ticks), columns, whole))
+        [point] = estimator.points()
+        found.append((point.gain, point.phase_deg, point.gain_95, point.phase_95_deg))
+    gain = np.array([[g * np.exp(1j * np.radians(p))] for g, p, _, _ in found])
+    held_gain = [[low <= abs(truth[0]) <= high] for _, _, (low, high), _ in found]
+    true_deg = float(np.degrees(np.angle(truth[0])))
+    held_phase = [[_within_deg(true_deg, *interval)] for *_, interval in found]
+    return Draws(gain, np.array(held_gain), np.array(held_phase), truth)
+
+
+def _within_deg(angle: float, low: float, high: float) -> bool:
+    middle, half = (low + high) / 2, (high - low) / 2
+    return abs((angle - middle + 180) % 360 - 180) <= half
+
+
+def _draws(curves: Iterable[tuple[Complex, Floats, Floats]], truth: Complex) -> Draws:
+    gains, held_gain, held_phase = [], [], []
+    for gain, gain_95, phase_95 in curves:
+        gains.append(gain)
+        size = np.abs(truth)
+        held_gain.append((gain_95[:, 0] <= size) & (size <= gain_95[:, 1]))
+        turned = np.degrees(np.angle(truth / gain))
+        half = (phase_95[:, 1] - phase_95[:, 0]) / 2
+        held_phase.append(np.abs(turned) <= half)
+    return Draws(np.array(gains), np.array(held_gain), np.array(held_phase), truth)
+
+
+def averaged(against: Against) -> Draws:
+    """Averaged periods: open, noise on the side that the estimator takes it for; or closed, by the setpoint."""
+    loop, size, segments = Loop.typical(), 2000, 16
+    lines = slice(1, 60, 4)  # 4 to 120 Hz, wide apart
+    spectrum = np.zeros(size // 2 + 1, np.complex128)
+    turned = np.random.default_rng(99).uniform(0, 2 * np.pi, 240)
+    spectrum[1:241] = 0.1 * AMPLITUDE_N * size / 2 * np.exp(1j * turned)
+    period = np.fft.irfft(spectrum, size)
+    setpoint = np.tile(period, LEAD_TICKS // size + segments)
+    settled = setpoint[LEAD_TICKS:]
+    clean = signal.lfilter(*loop.closed, setpoint)[LEAD_TICKS:]
+
+    def respond(u: Floats, y: Floats, reference: Floats | None = None) -> Curve:
+        periodic: Any = {"reference": reference, "window": "boxcar", "overlap": 0.0}
+        return spectral_response(u, y, PERIOD_S, size, against, **periodic)
+
+    def curves() -> Iterator[tuple[Complex, Floats, Floats]]:
+        closed = loop.run(setpoint, SEEDS, NOISE_N, RESONANT)
+        for seed in range(SEEDS):
+            noise = np.random.default_rng(seed).normal(0, NOISE_N, len(settled))
+            if against is Against.REFERENCE:
+                output, valve = next(closed)
+                c = respond(valve, output, settled)
+            elif against is Against.OUTPUT:
+                c = respond(settled + noise, clean)
+            else:
+                c = respond(settled, clean + noise)
+            yield c.gain[lines], c.gain_95[lines], c.phase_95_deg[lines]
+
+    frequencies_hz = np.arange(1, size // 2)[lines] / (size * PERIOD_S)
+    true = loop.plant if against is Against.REFERENCE else loop.response
+    return _draws(curves(), true(frequencies_hz))
+
+
+def swept() -> Draws:
+    """A sweep of 4 s in the closed loop, 2 to 150 Hz."""
+    loop, frequencies_hz = Loop.typical(), np.geomspace(3, 120, 10)
+    ticks = 16_000
+    phase = 2 * np.pi * PERIOD_S * np.cumsum(np.geomspace(2, 150, ticks))
+    sweep = AMPLITUDE_N * np.sin(phase) * signal.windows.tukey(ticks, 0.05)
+    setpoint = np.concatenate([np.zeros(LEAD_TICKS), sweep, np.zeros(2000)])
+
+    def curves() -> Iterator[tuple[Complex, Floats, Floats]]:
+        for output, _ in loop.run(setpoint, SEEDS, NOISE_N, RESONANT):
+            c = swept_response(setpoint[LEAD_TICKS:], output, PERIOD_S, frequencies_hz)
+            yield c.gain, c.gain_95, c.phase_95_deg
+
+    return _draws(curves(), loop.response(frequencies_hz))
+
+
+LINES = np.arange(1, 60, 2)
+LEFT_OUT = LINES[3::4]
+
+
+def cubic() -> Cubic:
+    """A system whose gain has 1 to 3 % of distortion, at 1 to 60 Hz; an odd multisine, each fourth line left out."""
+    excited = np.setdiff1d(LINES, LEFT_OUT)
+    b, a = signal.butter(2, 60.0, fs=1 / PERIOD_S)
+    return Cubic(0.01, excited, 0.4, 4000, (b, a))
+
+
+def best_linear(
+    realisations: int, seeds: int, quick: bool = False
+) -> tuple[Draws, list[BestLinear]]:
+    """Robust or fast method, four periods each, noise of 0.01 a tick."""
+    system = cubic()
+    found = []
+    for seed in range(seeds):
+        rng = np.random.default_rng(seed)
+        drawn = [_realisation(system, rng) for _ in range(realisations)]
+        period_s = system.period_ticks * PERIOD_S
+        if quick:
+            found.append(fast(drawn, "u", "y", system.lines, LEFT_OUT, period_s))
+        else:
+            found.append(robust(drawn, "u", "y", system.lines, period_s))
+    curves = ((c.gain, c.gain_95, c.phase_95_deg) for c in found)
+    return _draws(curves, system.best_linear()), found
+
+
+def _realisation(system: Cubic, rng: np.random.Generator) -> Realisation:
+    periods = Periods(("u", "y"), system.period_ticks, LINES.tolist())
+    u, y = system.period(rng)
+    for k in range(4):
+        at = np.arange(k * system.period_ticks, (k + 1) * system.period_ticks)
+        periods.take(at, {"u": u, "y": y + rng.normal(0, 0.01, len(y))})
+    made = periods.realisation()
+    assert made is not None, "four periods are at least one"
+    return made
+
+
+def rival_coverage(cycles: int = 20, frequency_hz: float = 85.0) -> Iterator[Figure]:
+    """What other intervals would have held, in the noise of a resonance: for information."""
+    loop, ticks = Loop.typical(), round(cycles / frequency_hz / PERIOD_S)
+    at = np.arange(-LEAD_TICKS, ticks)
+    setpoint = AMPLITUDE_N * np.sin(2 * np.pi * frequency_hz * PERIOD_S * at)
+    truth = loop.response([frequency_hz])[0]
+    held = np.zeros((SEEDS, 2))
+    edges = np.linspace(0, ticks, cycles + 1).round().astype(np.int64)
+    turns = np.exp(-2j * np.pi * frequency_hz * PERIOD_S * np.arange(ticks))
+    for k, (output, _) in enumerate(loop.run(setpoint, SEEDS, NOISE_N, RESONANT)):
+        given = setpoint[LEAD_TICKS:]
+        gain = np.sum(output * turns) / np.sum(given * turns)
+        parts = [
+            np.sum((output * turns)[a:b]) / np.sum((given * turns)[a:b]) for a, b in pairwise(edges)
+        ]
+        single = np.std(parts, ddof=1) / np.sqrt(2 * cycles) * 2.02  # t of 38
+        left = output - (gain * given * turns.conj()).real
+        design = np.stack([turns.real, turns.imag, np.ones(ticks)], 1)
+        left = output - design @ np.linalg.lstsq(design, output, rcond=None)[0]
+        white = 1.96 * np.std(left) * np.sqrt(2 / ticks) / AMPLITUDE_N
+        held[k] = np.abs(abs(gain) - abs(truth)) <= np.array([white, single])
+    for share, name, what in zip(
+        held.mean(axis=0),
+        ("residual", "cycles"),
+        ("the residual, as if white", "the scatter of single cycles"),
+        strict=True,
+    ):
+        yield Figure(f"rival_{name}_held", f"intervals from {what} that hold", float(share), "-")
+
+
+def _cases() -> Iterator[tuple[str, str, Callable[[], Draws]]]:
+    for hz, cycles, colour in (
+        (17.3, 2, "white"),
+        (17.3, 5, "resonant"),
+        (35.0, 20, "white"),
+        (85.0, 20, "resonant"),
+        (14.0, 40, "resonant"),
+    ):
+        name = f"stepped_{hz:g}_hz_{cycles}_{colour}"
+        what = f"stepped sine, {hz:g} Hz, {cycles} cycles, {colour} noise"
+        yield name, what, lambda hz=hz, n=cycles, c=colour: stepped(hz, n, c)  # type: ignore[misc]
+    yield (
+        "stepped_plant",
+        "stepped sine, plant in the loop",
+        lambda: stepped(35.0, 20, "resonant", "plant"),
+    )
+    for against in (Against.INPUT, Against.OUTPUT, Against.REFERENCE):
+        what = {"h1": "H1", "h2": "H2", "reference": "plant in the loop by the setpoint"}[
+            against.value
+        ]
+        yield f"averaged_{against.value}", what, lambda a=against: averaged(a)  # type: ignore[misc]
+    yield "swept", "sweep, local polynomials", swept
+    yield "bla_robust", "best linear, 6 realisations", lambda: best_linear(6, SEEDS)[0]
+    yield "bla_fast", "best linear, lines left out", lambda: best_linear(2, SEEDS, quick=True)[0]
+
+
+def _figures_of(name: str, what: str, draws: Draws) -> Iterator[Figure]:
+    apart = draws.gain.mean(axis=0) / draws.truth
+    bias_db = float(np.max(np.abs(20 * np.log10(np.abs(apart)))))
+    bias_deg = float(np.max(np.abs(np.degrees(np.angle(apart)))))
+    yield Figure(f"{name}_bias_db", f"{what}: bias", bias_db, "dB", at_most=BIAS_DB)
+    yield Figure(f"{name}_bias_deg", f"{what}: bias", bias_deg, "°", at_most=BIAS_DEG)
+    for kind, held in (("gain", draws.gain_held), ("phase", draws.phase_held)):
+        share = float(held.mean())
+        note = f"{100 * share:.1f} % of {held.size:,}"
+        yield Figure(
+            f"{name}_{kind}_held", f"{what}: {kind} held", share, "-", HELD[1], HELD[0], note
+        )
+
+
+def nonlinear_figures() -> Iterator[Figure]:
+    """The variance of the distortion, of both methods, against that which was counted out."""
+    truth = cubic().nonlinear_variance()
+    for name, quick in (("robust", False), ("fast", True)):
+        _, found = best_linear(6 if not quick else 2, SEEDS, quick=quick)
+        seen = np.mean([c.nonlinear_variance for c in found], axis=0)
+        inner = slice(3, -3)
+        ratio_db = 10 * np.log10(seen / truth)
+        worst = float(np.max(np.abs(ratio_db[inner if quick else slice(None)])))
+        what = f"distortion by the {name} method against the truth, worst line"
+        yield Figure(f"nonlinear_{name}_db", what, worst, "dB", at_most=1.0)
+
+
+def figures() -> Iterator[Figure]:
+    """Every estimator against closed forms."""
+    for name, what, draw in _cases():
+        progress(what)
+        yield from _figures_of(name, what, draw())
+    yield from nonlinear_figures()
+    yield from rival_coverage()
+
+
+def main(as_json: bool) -> int:
+    """Measure and print."""
+    found = list(figures())
+    notes = [
+        f"{SEEDS} draws of the noise each; several frequencies count together where there are any"
+    ]
+    show("estimators", found, notes, as_json)
+    return int(any(figure.met is False for figure in found))
