@@ -53,7 +53,7 @@ def test_a_response_is_seen_live_read_off_and_taken_away(
     bode = page.get_by_test_id("run-bode")
     expect(bode.get_by_test_id("chart-bode")).to_have_attribute("data-points", "5")
     expect(bode.get_by_test_id("bode-extremes")).to_contain_text(
-        re.compile(r"2 kN: \+\d\.\d dB at")
+        re.compile(r"2\skN: \+\d\.\d\sdB at")
     )
     expect(bode.get_by_test_id("bode-table")).to_contain_text("1 kN")
     bode.get_by_role("application").focus()
