@@ -20,6 +20,7 @@ from app.histories.history import Histories
 from app.prediction.judgement import Judged, judge_measured, measuring
 from app.prediction.series_file import NAME as PREDICTED
 from app.recording.samples import Samples, open_samples
+from app.rig_configuration.record import model_of
 from app.runs.acquiring import asked
 from app.runs.acquisition_files import AcquisitionWriter, acquisition_path, writing
 from app.runs.response_file import write_points
@@ -82,7 +83,7 @@ def read_definition(data: Mapping[str, Any], histories: Histories | None) -> Def
 def read_rig(data: Mapping[str, Any] | None) -> RigParameters | None:
     """The model of the rig that a run was made with; None where it cannot be read any more."""
     try:
-        return RigParameters.model_validate(data)
+        return None if data is None else model_of(data)
     except ValueError:
         return None
 
