@@ -22,7 +22,12 @@ from tests.unit.app.definitions.strategies import definitions, every_block
 
 pytestmark = [pytest.mark.process, pytest.mark.slow]
 DOCUMENT = Path(__file__).parents[2] / "web" / "src" / "gen" / "openapi.json"
-ASKING = ["checkTest", "previewTest", "readSpectrum"]  # POST, but nothing is changed
+ASKING = [
+    "checkTest",
+    "previewTest",
+    "readSpectrum",
+    "checkController",
+]  # POST, but nothing is changed
 EXAMPLES = 10  # of each operation, beside those at the limits of each parameter
 SOME = settings(max_examples=15, derandomize=True)
 
@@ -75,7 +80,9 @@ def known(console: ConsoleProcess) -> Known:
     test_id = answer.json()["id"]
     run_id = console.start_run(test_id)
     console.ended_run(run_id)
-    return {"test_id": test_id, "number": 1, "run_id": run_id, "index": 0}
+    preview = console.http.post("/controller/preview", json={"document": {}}).json()
+    there = {"test_id": test_id, "number": 1, "run_id": run_id, "index": 0}
+    return there | {"preview_id": preview["id"]}
 
 
 def test_the_console_describes_what_is_committed(console: ConsoleProcess) -> None:
