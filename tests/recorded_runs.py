@@ -33,7 +33,8 @@ def _played(blocks: str, seed: int, ticks: int) -> Records:
     virtual = ready_rig(rig_from({}), seed=seed)
     begin(virtual, make_test(json.loads(blocks)))
     records = virtual.advance(ticks)
-    return records[records["run"] == 1]
+    found: Records = records[records["run"] == 1]
+    return found
 
 
 def played(blocks: Sequence[Mapping[str, Any]], seconds: float, seed: int = 1) -> Records:

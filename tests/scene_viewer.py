@@ -8,6 +8,7 @@ import pyarrow as pa
 import viser
 from viser._messages import ViewerCameraMessage
 from websockets.sync.client import ClientConnection, connect
+from websockets.typing import Subprotocol
 
 PROTOCOL = f"viser-v{viser.__version__}"
 PATIENCE_S = 30
@@ -32,8 +33,8 @@ class SceneViewer:
         self.stream: ClientConnection = connect(
             address,
             additional_headers=headers,
-            subprotocols=[PROTOCOL],
-            open_timeout=PATIENCE_S,  # type: ignore[list-item]
+            subprotocols=[Subprotocol(PROTOCOL)],
+            open_timeout=PATIENCE_S,
         )
         self.parts: dict[str, dict[str, Any]] = {}
 

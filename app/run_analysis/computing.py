@@ -98,12 +98,15 @@ def analysis_of_records(
 def known_of(rig: Mapping[str, Any]) -> Known | None:
     """What the configuration that a run was made with says of the load cell; None where it says nothing."""
     configuration = configuration_of(rig)
-    if configuration is None or configuration.calibrations.load_cell.class_percent is None:
+    if configuration is None:
         return None
     cell = configuration.calibrations.load_cell
+    class_percent = cell.class_percent
+    if class_percent is None:
+        return None
     full_n = abs(cell.gain) * FULL_SCALE_V
-    said = f"its calibration: {cell.class_percent:g} % of {full_n / 1000:.3g} kN"
-    return Known(load_cell_n=0.01 * cell.class_percent * full_n, load_cell_from=said)
+    said = f"its calibration: {class_percent:g} % of {full_n / 1000:.3g} kN"
+    return Known(load_cell_n=0.01 * class_percent * full_n, load_cell_from=said)
 
 
 def _counted(samples: Samples, channel: str, report: Progress, done: float) -> CountedCycles:

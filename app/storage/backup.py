@@ -33,7 +33,13 @@ Progress = Callable[[float], None]
 
 _OVER = ("run.parquet", "overview-*.bin")
 _UNDER_WAY = ("part-*.arrows", "stopped-because.txt")
-_SMALL = ("acquisition-*.parquet", "predicted.parquet", "analysis.json", "frequency-response.json", "*.damaged")
+_SMALL = (
+    "acquisition-*.parquet",
+    "predicted.parquet",
+    "analysis.json",
+    "frequency-response.json",
+    "*.damaged",
+)
 _ATTEMPTS = 10  # a run may end while its files are being opened
 
 

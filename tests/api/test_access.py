@@ -8,7 +8,8 @@ from typing import Any
 import httpx2
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 
 from app.access.principal import Role
 from tests.console_process import ConsoleProcess, bearer
@@ -306,7 +307,7 @@ def test_a_ticket_opens_one_live_stream(console: ConsoleProcess, person: Person)
     assert not hears(console, f"?ticket={ticket}")
 
 
-def how_it_ends(stream: ClientConnection) -> int | None:
+def how_it_ends(stream: Connection) -> int | None:
     """Read until the stream is closed; the code that it is closed with."""
     while True:
         try:

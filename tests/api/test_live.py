@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 
 from app.rigs.schemas import RigStatus
 from tests.console_process import ConsoleProcess, wait_for
@@ -20,18 +21,18 @@ HEADER = struct.Struct("<BBHIqII")
 
 
 @contextmanager
-def listening(console: ConsoleProcess, **options: Any) -> Iterator[ClientConnection]:
+def listening(console: ConsoleProcess, **options: Any) -> Iterator[Connection]:
     address = console.url.replace("http", "ws") + "/api/v1/live"
     with connect(address, additional_headers=console.headers, **options) as stream:
         yield stream
 
 
-def subscribe(stream: ClientConnection, number: int, *channels: str) -> None:
+def subscribe(stream: Connection, number: int, *channels: str) -> None:
     message = {"type": "subscribe", "subscription": number, "channels": channels}
     stream.send(json.dumps(message))
 
 
-def frames(stream: ClientConnection) -> Iterator[tuple[dict[str, int], Any]]:
+def frames(stream: Connection) -> Iterator[tuple[dict[str, int], Any]]:
     """The binary frames, for ever: the header's fields and (channels, samples) float32."""
     names = ("version", "kind", "channels", "samples", "tick", "lost", "subscription")
     while True:
@@ -42,13 +43,13 @@ def frames(stream: ClientConnection) -> Iterator[tuple[dict[str, int], Any]]:
             yield fields, np.frombuffer(frame, "<f4", offset=HEADER.size).reshape(shape)
 
 
-def read_on(stream: ClientConnection) -> None:
+def read_on(stream: Connection) -> None:
     """Read until the stream ends."""
     while True:
         stream.recv(PATIENCE_S)
 
 
-def messages(stream: ClientConnection, kind: str) -> Iterator[dict[str, Any]]:
+def messages(stream: Connection, kind: str) -> Iterator[dict[str, Any]]:
     """The JSON frames of a type, for ever."""
     while True:
         frame = stream.recv(PATIENCE_S)

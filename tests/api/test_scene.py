@@ -154,7 +154,8 @@ def test_the_rig_now_is_drawn_as_it_moves(drawn: ConsoleProcess, run_id: int) ->
 
 
 def force_at(console: ConsoleProcess, run_id: int, time_s: float) -> float:
-    query = {"channels": "force_n", "from_s": time_s, "to_s": time_s, "points": 1}
+    query: dict[str, str | float] = {"channels": "force_n", "from_s": time_s, "to_s": time_s}
+    query["points"] = 1
     found = console.http.get(f"/runs/{run_id}/samples", params=query).json()
     return float(found["channels"]["force_n"]["min"][0])
 

@@ -77,7 +77,7 @@ def picture(page: Page) -> tuple[str, int]:
     box = page.get_by_test_id("scene-frame").bounding_box()
     assert box is not None
     box["height"] -= 60  # without the legend
-    png = page.screenshot(clip=box, timeout=PATIENCE_MS, caret="initial")  # type: ignore[arg-type]
+    png = page.screenshot(clip=box, timeout=PATIENCE_MS, caret="initial")
     return hashlib.sha256(png).hexdigest(), len(png) // 1000
 
 

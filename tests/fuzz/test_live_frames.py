@@ -13,7 +13,8 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from websockets.exceptions import ConnectionClosed, InvalidStatus
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 
 from app.access.principal import Role
 from rtcore.channels import CHANNELS
@@ -64,17 +65,17 @@ frames = st.one_of(
 
 
 @contextmanager
-def listening(run: UnderWay, headers: dict[str, str], **options: Any) -> Iterator[ClientConnection]:
+def listening(run: UnderWay, headers: dict[str, str], **options: Any) -> Iterator[Connection]:
     address = run.console.url.replace("http", "ws") + "/api/v1/live"
     with connect(address, additional_headers=headers, **options) as stream:
         yield stream
 
 
-def subscribe(stream: ClientConnection, number: int, *channels: str) -> None:
+def subscribe(stream: Connection, number: int, *channels: str) -> None:
     stream.send(json.dumps({"type": "subscribe", "subscription": number, "channels": channels}))
 
 
-def errors_until(stream: ClientConnection, subscription: int) -> list[dict[str, Any]]:
+def errors_until(stream: Connection, subscription: int) -> list[dict[str, Any]]:
     """Read until samples of that subscription come; the error frames before them."""
     errors: list[dict[str, Any]] = []
     while True:
@@ -86,7 +87,7 @@ def errors_until(stream: ClientConnection, subscription: int) -> list[dict[str, 
             errors.append(message)
 
 
-def code_at_the_end(stream: ClientConnection) -> int | None:
+def code_at_the_end(stream: Connection) -> int | None:
     """Read until the stream is closed; the code that it is closed with.
 
     None where the connection went first: the system drops what the console has said to whoever goes
@@ -123,7 +124,7 @@ def role(request: pytest.FixtureRequest) -> Role:
 
 
 @pytest.fixture(scope="module")
-def stream(under_way: UnderWay, role: Role) -> Iterator[ClientConnection]:
+def stream(under_way: UnderWay, role: Role) -> Iterator[Connection]:
     with listening(under_way, under_way.headers(role), close_timeout=0.1) as made:
         yield made
 
@@ -132,7 +133,7 @@ def stream(under_way: UnderWay, role: Role) -> Iterator[ClientConnection]:
 @example(sent=[b"\0", '{"type":"beat","epoch":0}', '{"type":"beat","epoch":9007199254740992}'])
 @given(sent=st.lists(frames, min_size=1, max_size=8))
 def test_whatever_is_said_is_answered_and_the_stream_goes_on(
-    under_way: UnderWay, stream: ClientConnection, sent: list[str | bytes]
+    under_way: UnderWay, stream: Connection, sent: list[str | bytes]
 ) -> None:
     epoch = under_way.console.http.get("/lease").json()["epoch"]
     for frame in sent:
@@ -149,7 +150,7 @@ def test_whatever_is_said_is_answered_and_the_stream_goes_on(
 
 
 def test_a_beat_with_an_epoch_of_somebody_elses_is_refused(
-    under_way: UnderWay, stream: ClientConnection
+    under_way: UnderWay, stream: Connection
 ) -> None:
     held = under_way.console.http.get("/lease").json()["epoch"]
     epochs = [held, held - 1, held + 1, 0, -1, 2**53, 2**53 + 1, 10**400, "1", None, 1.5, [1]]
@@ -161,7 +162,7 @@ def test_a_beat_with_an_epoch_of_somebody_elses_is_refused(
 
 
 def test_a_flood_of_subscriptions_is_followed_to_the_last(
-    under_way: UnderWay, stream: ClientConnection
+    under_way: UnderWay, stream: Connection
 ) -> None:
     every = [channel.name for channel in CHANNELS]
     for number in range(2000):
