@@ -2,16 +2,13 @@
 
 import math
 from pathlib import Path
-from typing import get_args
 
 import pytest
 
 from app.analysis.response.point import Interval, ResponsePoint
-from app.analysis.response.transfers import TRANSFERS, UNIT_TRANSFERS
 from app.conducting.found import Found
 from app.definitions.responses import FrequencyResponse
 from app.runs.response_file import NAME, read_points, write_points
-from app.runs.response_schemas import TransferName
 from app.runs.response_series import bands_of, point_out, series_of
 
 
@@ -79,7 +76,3 @@ def test_bands_are_those_of_the_test() -> None:
     )
     (told,) = bands_of([asked])
     assert (told.from_hz, told.to_hz, told.low_db, told.high_db) == (5.0, 50.0, None, 3.0)
-
-
-def test_every_transfer_can_be_asked_for() -> None:
-    assert get_args(TransferName) == (*TRANSFERS, *UNIT_TRANSFERS)
