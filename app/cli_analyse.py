@@ -132,3 +132,18 @@ def goodness(
     from app.commands.run_analyses import goodness as tell
 
     raise typer.Exit(tell(run, against, json))
+
+
+@analyse.command()
+def identification(
+    runs: Annotated[list[Path], typer.Argument(help="Parquet files of runs of one rig.")],
+    rig: Annotated[
+        Path | None, typer.Option(help="Rig to begin with.", show_default="the shipped one")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Write the fitted rig to this file.")] = None,
+    json: Json = False,
+) -> None:
+    """Parameters of the rig model fitted to runs, with 95 % intervals and what cannot be told apart."""
+    from app.commands.identification import identification as tell
+
+    raise typer.Exit(tell(runs, rig, out, json))
