@@ -5,6 +5,7 @@ console does it: by a process apart, which has to start, to load what draws, and
 """
 
 import os
+import resource
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -81,14 +82,25 @@ def _filed(url: str, runs_dir: Path, duration_s: float) -> int:
 
 def _report(sources: Sources, order: Order, plain_s: float) -> Iterator[Figure]:
     progress(f"{order.extent} report as {order.format}")
-    watch = _Peak()
+    watch, before_s = _Peak(), _processor_s()
     taken_s, found = _timed(lambda: run_apart(carry_out, sources, order, report=watch.look))
     if isinstance(found, Refusal):
         raise RuntimeError(found.detail)
     key, what = f"{order.extent}_{order.format}", f"{order.extent} report, {order.format.upper()}"
     note = f"{taken_s / plain_s:.0f} × the plain read; {_size(order)}"
     yield Figure(f"{key}_s", what, taken_s, "s", AT_MOST_S, note=note)
+    spent_s = _processor_s() - before_s
+    what_spent = f"{what}: processor time"
+    yield Figure(
+        f"{key}_processor_s", what_spent, spent_s, "s", note="whatever else there is to do"
+    )
     yield Figure(f"{key}_peak_b", f"{what}: its process's memory", float(watch.close()), "B")
+
+
+def _processor_s() -> float:
+    """What the processes that have ended have had of the processors."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _size(order: Order) -> str:
