@@ -13,7 +13,10 @@ from tests.console_process import ConsoleProcess, wait_for
 pytestmark = [pytest.mark.browser, pytest.mark.slow]
 PATIENCE_MS = 60_000
 DRAWN = [flag for flag in FLAGS if flag != "--disable-gpu"]
-SOFTWARE = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+SOFTWARE = [
+    *("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"),
+    "--disable-gpu-compositing",  # the rest of the page is drawn without
+]
 NO_EVAL = "Evaluating a string as JavaScript"  # viser's splat sorter, which nothing here needs
 
 
@@ -88,7 +91,7 @@ def test_the_view_is_drawn_and_moves_with_a_run(console: ConsoleProcess, page: P
     console.ended_run(run_id)
     page.goto(f"{console.url}/#/rig/view")
     page.get_by_test_id("scene-run").select_option(str(run_id))
-    page.get_by_test_id("scene-anyway").click()
+    page.get_by_test_id("scene-anyway").dispatch_event("click")  # which waits for no picture
     frame = page.frame_locator("[data-testid=scene-frame]")
     expect(frame.locator("canvas").first).to_be_visible(timeout=PATIENCE_MS)
     wait_for(lambda: picture(page)[1] > 5, "a picture")
@@ -102,6 +105,6 @@ def test_the_page_says_what_has_become_of_the_view(console: ConsoleProcess, page
     page.route("**/api/v1/scene*", lambda route: route.abort())
     page.route("**/api/v1/scene/**", lambda route: route.abort())
     page.goto(f"{console.url}/#/rig/view")
-    page.get_by_test_id("scene-anyway").click()
+    page.get_by_test_id("scene-anyway").dispatch_event("click")  # which waits for no picture
     expect(page.get_by_test_id("scene-detail")).to_contain_text("does not answer")
     expect(page.get_by_test_id("stop")).to_be_enabled()
