@@ -75,7 +75,9 @@ class Loop(NamedTuple):
 
 
 def _response(b: npt.ArrayLike, a: npt.ArrayLike, frequencies_hz: npt.ArrayLike) -> Complex:
-    return np.asarray(signal.freqz(b, a, worN=np.atleast_1d(frequencies_hz), fs=1 / PERIOD_S)[1])
+    b, a = np.asarray(b, float), np.asarray(a, float)
+    at = np.atleast_1d(np.asarray(frequencies_hz, float))
+    return np.asarray(signal.freqz(b, a, worN=at, fs=1 / PERIOD_S)[1])
 
 
 def _power(b: list[float], a: list[float]) -> float:
@@ -114,7 +116,8 @@ class Cubic(NamedTuple):
             for k in set(triple):
                 orders //= factorial(triple.count(k))
             power[line] += (orders * self.share * self.amplitude**2 / 4) ** 2
-        return np.array([power[k] for k in self.lines.tolist()]) * np.abs(self._filter()) ** 2
+        counted = np.array([power[k] for k in self.lines.tolist()])
+        return np.asarray(counted * np.abs(self._filter()) ** 2)
 
     def period(self, rng: np.random.Generator) -> tuple[Floats, Floats]:
         """One period of input and output, (period_ticks,) each, of freshly drawn phases."""

@@ -71,7 +71,8 @@ def ours(columns: Columns, program: Program) -> list[ResponsePoint]:
 
 def script(columns: Columns, program: Program) -> dict[str, Any]:
     """As one would write it with scipy.signal and python-control; one `frd` a transfer."""
-    rate_hz, found = 1 / PERIOD_S, {name: [] for name in TRANSFERS}  # type: dict[str, list[complex]]
+    rate_hz = 1 / PERIOD_S
+    found: dict[str, list[complex]] = {name: [] for name in TRANSFERS}
     for stretch in program:
         assert stretch.sine is not None, "each stretch has one"
         hz = stretch.sine.frequency_hz

@@ -5,6 +5,7 @@ read from what a real rig would have: load cell, LVT and LVDT, with their noise 
 """
 
 from collections.abc import Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -98,11 +99,11 @@ def figures() -> Iterator[Figure]:
     """Each quantity with the load on and off."""
     rig = load_rig()
     for name, what, found in (
-        ("stiffness_unloaded", "stiffness, no mean load", lambda: stiffness(rig, 0.0, False)),
-        ("stiffness_loaded", "stiffness, 10 kN mean", lambda: stiffness(rig, MEAN_N, False)),
-        ("stiffness_moving", "stiffness, the unit moving", lambda: stiffness(rig, 0.0, True)),
-        ("position_unloaded", "position response, no load", lambda: position(rig, 0.0)),
-        ("position_loaded", "position response, 10 kN held", lambda: position(rig, MEAN_N)),
+        ("stiffness_unloaded", "stiffness, no mean load", partial(stiffness, rig, 0.0, False)),
+        ("stiffness_loaded", "stiffness, 10 kN mean", partial(stiffness, rig, MEAN_N, False)),
+        ("stiffness_moving", "stiffness, the unit moving", partial(stiffness, rig, 0.0, True)),
+        ("position_unloaded", "position response, no load", partial(position, rig, 0.0)),
+        ("position_loaded", "position response, 10 kN held", partial(position, rig, MEAN_N)),
     ):
         progress(what)
         percent, degrees = found()
