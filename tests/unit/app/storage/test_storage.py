@@ -62,7 +62,7 @@ def test_a_run_that_does_not_fit_is_refused_with_numbers(disk: Disk) -> None:
     refusal = disk.storage.refusal_for(3600.0)
     assert refusal is not None
     assert refusal.code is Code.NO_SPACE
-    assert refusal.detail.startswith("Cannot start: the run needs 2.1 GB on the disk and 2.1 GB")
+    assert refusal.detail.startswith("Cannot start: the run needs 2.2 GB on the disk and 2.2 GB")
     assert "enough for 60 min" in refusal.detail
     assert refusal.about == {"free_bytes": disk.free, "needed_bytes": disk.free + 1}
 
