@@ -37,7 +37,7 @@ from app.runs.starting import Starter
 from app.scene.service import Scene
 from app.storage.service import Storage
 from app.system.service import System
-from app.wiring import Console
+from app.wiring.console import Console
 
 
 def console(connection: HTTPConnection) -> Console:
@@ -81,7 +81,7 @@ def _library(this: ThisConsole) -> Library:
 
 
 def _exports(this: ThisConsole) -> Exports:
-    return this.exports
+    return this.results.exports
 
 
 def _first_outs(this: ThisConsole) -> FirstOuts:
@@ -97,15 +97,15 @@ def _drills(this: ThisConsole) -> Drills:
 
 
 def _runs(this: ThisConsole) -> Runs:
-    return this.runs
+    return this.results.runs
 
 
 def _responses(this: ThisConsole) -> Responses:
-    return this.responses
+    return this.results.responses
 
 
 def _results(this: ThisConsole) -> Results:
-    return this.results
+    return this.results.results
 
 
 def _scene(this: ThisConsole) -> Scene:
@@ -113,15 +113,15 @@ def _scene(this: ThisConsole) -> Scene:
 
 
 def _analyses(this: ThisConsole) -> Analyses:
-    return this.analyses
+    return this.results.analyses
 
 
 def _comparisons(this: ThisConsole) -> Comparisons:
-    return this.comparisons
+    return this.results.comparisons
 
 
 def _run_windows(this: ThisConsole) -> RunWindows:
-    return this.run_windows
+    return this.results.windows
 
 
 def _storage(this: ThisConsole) -> Storage:
@@ -137,19 +137,19 @@ def _metrics(this: ThisConsole) -> Metrics:
 
 
 def _predictions(this: ThisConsole) -> Predictions:
-    return this.predictions
+    return this.in_force.predictions
 
 
 def _run_predictions(this: ThisConsole) -> RunPredictions:
-    return this.run_predictions
+    return this.results.predictions
 
 
 def _interlocks(this: ThisConsole) -> InterlockTables:
-    return this.interlocks
+    return this.in_force.interlocks
 
 
 def _controllers(this: ThisConsole) -> ControllerSettingsBook:
-    return this.controllers
+    return this.in_force.controllers
 
 
 def _previews(this: ThisConsole) -> Previews:
@@ -157,7 +157,7 @@ def _previews(this: ThisConsole) -> Previews:
 
 
 def _rig_configurations(this: ThisConsole) -> RigConfigurations:
-    return this.rig_configurations
+    return this.in_force.rig_configurations
 
 
 def _identifications(this: ThisConsole) -> Identifications:
@@ -165,11 +165,11 @@ def _identifications(this: ThisConsole) -> Identifications:
 
 
 def _live_interlocks(this: ThisConsole) -> LiveTable:
-    return this.live_interlocks
+    return this.in_force.live_interlocks
 
 
 def _reports(this: ThisConsole) -> Reports:
-    return this.reports
+    return this.results.reports
 
 
 def _starter(this: ThisConsole) -> Starter:

@@ -40,7 +40,7 @@ from app.settings import VERSION, Settings
 from app.static_files import serve_console
 from app.stopping.door import StopDoor, open_door
 from app.stopping.listening import listening_for_stop
-from app.wiring import Console
+from app.wiring.console import Console
 
 _LONGEST_FRAME = 16_384  # of a browser's WebSocket message
 _STOPS = frozenset({"/api/v1/rig/commands"})

@@ -66,6 +66,7 @@ class Starter:
         frozen: Callable[[], Frozen],
         plans: Plans,
         needs: Needs,
+        one_at_a_time: Lock,
     ) -> None:
         self._database = database
         self._runs_dir = runs_dir
@@ -75,7 +76,9 @@ class Starter:
         self._plans = plans
         self._needs = needs
         self._unanswered: set[int] = set()
-        self.one_at_a_time = Lock()  # held as well by whoever changes what a run is made with
+        self._one_at_a_time = (
+            one_at_a_time  # held as well by whoever changes what a run is made with
+        )
 
     def start(self, asked: RunStart, who: Principal) -> Run | Refusal:
         """Run a revision of a test. Returns its row once the loop has begun it.
@@ -102,7 +105,7 @@ class Starter:
         predicted = gate(found, asked.override_reason)
         if isinstance(predicted, Refusal):
             return predicted
-        with self.one_at_a_time:
+        with self._one_at_a_time:
             return self._start(asked, stored, predicted, lease)
 
     def _start(

@@ -2,6 +2,7 @@
 
 from contextlib import contextmanager
 from pathlib import Path
+from threading import Lock
 from types import SimpleNamespace
 from typing import Any
 
@@ -71,7 +72,7 @@ class Lab:
         )
         book: Any = SimpleNamespace(reading=self.database.reading, writing=self._writing)
         frozen = Frozen(controller={}, interlocks={}, rig={})
-        self.starter = Starter(book, folder, link, recorder, lambda: frozen, Plans(), needs)
+        self.starter = Starter(book, folder, link, recorder, lambda: frozen, Plans(), needs, Lock())
 
     def open_runs(self) -> list[int]:
         with self.database.reading() as session:
