@@ -7,6 +7,7 @@ import {
   figureWidth,
   FORCE,
   fromEntry,
+  gainQuantity,
   LENGTH,
   localTime,
   microseconds,
@@ -56,6 +57,16 @@ describe("quantityOf", () => {
     expect(quantityOf("velocity_m_s")).toBe(SPEED);
     expect(quantityOf("supply_pressure_pa")).toBe(PRESSURE);
     expect(quantityOf("spool_position")).toBe(RATIO);
+  });
+});
+
+describe("gainQuantity", () => {
+  it("knows each unit that the backend gives a transfer", () => {
+    const shown = (unit: string): string => withUnit(gainQuantity(unit), 1e-6, -2);
+    expect(gainQuantity("1").symbol).toBe("");
+    expect(["N", "m/s", "N s/m"].map((unit) => gainQuantity(unit).symbol)).toEqual(["kN", "mm/s", "kN s/m"]);
+    expect([shown("m/N"), shown("m/(N s)")]).toEqual(["1.0\u00a0mm/kN", "1.0\u00a0mm/(kN s)"]);
+    expect(withUnit(gainQuantity("N/m"), 2e7)).toBe("20.000\u00a0kN/mm");
   });
 });
 

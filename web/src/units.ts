@@ -57,7 +57,7 @@ const GAINS: Readonly<Record<string, readonly [string, number]>> = {
   "m/s": ["mm/s", 1e3],
   "m/N": ["mm/kN", 1e6],
   "N/m": ["kN/mm", 1e-6],
-  "m/s/N": ["mm/s/kN", 1e6],
+  "m/(N s)": ["mm/(kN s)", 1e6],
 };
 
 /** How the gain of a transfer is shown, by its unit as the backend names it. */

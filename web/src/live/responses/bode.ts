@@ -12,6 +12,8 @@ export const TRANSFER_NAMES: Readonly<Record<TransferName, { readonly label: str
   disturbance: { label: "Disturbance", says: "Force to rod velocity: what a motion does to the force" },
   compliance: { label: "Compliance", says: "Displacement of the unit to force" },
   position: { label: "Position", says: "Displacement of the unit to its command" },
+  stiffness: { label: "Stiffness", says: "Dynamic stiffness of the unit: force on it to its deformation" },
+  admittance: { label: "Admittance", says: "Velocity of the unit's deformation to the force on it" },
 };
 
 const METHODS = { stepped_sine: "stepped sine", multisine: "multisine", sweep: "sweep" } as const;
