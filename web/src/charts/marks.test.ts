@@ -8,6 +8,7 @@ describe("marks", () => {
       { kind: "block", code: "-1", time_s: 1 },
       { kind: "command", code: "hold", time_s: 2 },
       { kind: "mode", code: "holding", time_s: 2 },
+      { kind: "command", code: "skip", time_s: 2.5 },
       { kind: "trip", code: "force_high", time_s: 3 },
     ];
     expect(marksOf(events).map(({ kind, label }) => [kind, label])).toEqual([

@@ -18,12 +18,14 @@ interface Event {
 
 const MARKED: ReadonlySet<string> = new Set(["command", "program_ended", "fault", "stop_asked"]);
 
+const SKIP = "skip"; // the console's own, many of them to each frequency response
+
 /** What of a run's events is marked: blocks, trips, and what people did. */
 export function marksOf(events: readonly Event[]): readonly Mark[] {
   return events.flatMap(({ kind, code, time_s }): Mark[] => {
     if (kind === "block") return Number(code) >= 0 ? [{ time_s, kind, label: String(Number(code) + 1) }] : [];
     if (kind === "trip") return [{ time_s, kind, label: "" }];
-    return MARKED.has(kind) ? [{ time_s, kind: "event", label: "" }] : [];
+    return MARKED.has(kind) && code !== SKIP ? [{ time_s, kind: "event", label: "" }] : [];
   });
 }
 

@@ -25,6 +25,19 @@ describe("the log of events", () => {
     expect(lines[0]).toMatchObject({ times: 3, tick: 3 });
   });
 
+  it("counts what a frequency response leaves out on one line, late ticks between or not, and its commands on none", () => {
+    const left = (tick: number): RigEvent[] => [event("command", "skip", tick), event("skipped", String(tick), tick)];
+    const late = event("deadlines_missed", "deadlines_missed", 3);
+    const lines = log(event("mode", "running"), ...left(1), ...left(2), late, ...left(4));
+    expect(lines.map(({ kind, times }) => [kind, times])).toEqual([
+      ["skipped", 3],
+      ["deadlines_missed", 1],
+      ["mode", 1],
+    ]);
+    expect(new Set(lines.map(({ serial }) => serial)).size).toBe(3);
+    expect(log(...left(1), event("block", "1", 2), ...left(3)).map(({ kind }) => kind)).toEqual(["skipped", "block", "skipped"]);
+  });
+
   it("never joins trips or refusals", () => {
     expect(log(event("trip", "force"), event("trip", "force"))).toHaveLength(2);
     expect(log(event("refusal", "start"), event("refusal", "start"))).toHaveLength(2);

@@ -12,16 +12,27 @@ export interface LoggedEvent extends RigEvent {
 export type EventLog = readonly LoggedEvent[];
 
 export const EVENTS_KEPT = 200;
-const COUNTED: ReadonlySet<string> = new Set(["deadlines_missed"]);
+const COUNTED: ReadonlySet<string> = new Set(["deadlines_missed", "skipped"]);
+
+/** What another event tells already, with what came of it: that the console had the loop skip. */
+const isTold = ({ kind, code }: RigEvent): boolean => kind === "command" && code === "skip";
 
 /** Adds an event on top. A full log loses its oldest line that is no trip. */
 export function logged(log: EventLog, event: RigEvent): EventLog {
-  const [newest] = log;
-  if (newest && newest.kind === event.kind && newest.code === event.code && COUNTED.has(event.kind)) {
-    return [{ ...event, serial: newest.serial, times: newest.times + 1 }, ...log.slice(1)];
+  if (isTold(event)) return log;
+  const same = sameAs(log, event);
+  if (same !== undefined) {
+    return [{ ...event, serial: same.serial, times: same.times + 1 }, ...log.filter((line) => line !== same)];
   }
-  const line: LoggedEvent = { ...event, serial: (newest?.serial ?? 0) + 1, times: 1 };
+  const line: LoggedEvent = { ...event, serial: log.reduce((most, { serial }) => Math.max(most, serial), 0) + 1, times: 1 };
   return [line, ...(log.length < EVENTS_KEPT ? log : withoutOldest(log))];
+}
+
+/** The line that an event is counted on: no other than lines of what is counted may be above it. */
+function sameAs(log: EventLog, { kind }: RigEvent): LoggedEvent | undefined {
+  if (!COUNTED.has(kind)) return undefined;
+  const end = log.findIndex((line) => !COUNTED.has(line.kind));
+  return log.slice(0, end < 0 ? log.length : end).find((line) => line.kind === kind);
 }
 
 function withoutOldest(log: EventLog): EventLog {
