@@ -97,7 +97,11 @@ class LoopHealth(BaseModel):
 
 
 class RunProgress(BaseModel):
-    """The run under way; `block` counts from 0, -1 outside of every block."""
+    """The run under way; `block` counts from 0, -1 outside of every block.
+
+    `elapsed_s` and `duration_s` are of its program: that stands still in a hold, and jumps where a frequency
+    response goes on early. `recorded_s` is how much of the run is recorded.
+    """
 
     id: int
     test_name: str
@@ -107,6 +111,7 @@ class RunProgress(BaseModel):
     cycles: int | None
     elapsed_s: float
     duration_s: float | None
+    recorded_s: float
 
 
 class RecorderOut(BaseModel):

@@ -173,7 +173,12 @@ class StatusReader:
             cycles=plan.cycles(block),
             elapsed_s=int(life.block.fields["program_ticks"]) * life.period_ns * 1e-9,
             duration_s=plan.duration_s,
+            recorded_s=self._recorded_s(run_id, life.period_ns),
         )
+
+    def _recorded_s(self, run_id: int, period_ns: int) -> float:
+        state = self._recorder.state()
+        return state.ticks * period_ns * 1e-9 if state.run_id == run_id else 0.0
 
     def _recorder_out(self) -> RecorderOut:
         state = self._recorder.state()

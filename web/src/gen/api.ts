@@ -6550,6 +6550,9 @@ export interface components {
         /**
          * RunProgress
          * @description The run under way; `block` counts from 0, -1 outside of every block.
+         *
+         *     `elapsed_s` and `duration_s` are of its program: that stands still in a hold, and jumps where a frequency
+         *     response goes on early. `recorded_s` is how much of the run is recorded.
          */
         RunProgress: {
             /** Block */
@@ -6566,6 +6569,8 @@ export interface components {
             elapsed_s: number;
             /** Id */
             id: number;
+            /** Recorded S */
+            recorded_s: number;
             /** Test Name */
             test_name: string;
         };

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from time import monotonic_ns
 from types import SimpleNamespace
 from typing import Any, cast
@@ -24,10 +25,14 @@ IDLE = RecorderState(recording=False, lost_ticks=0, size_bytes=0, trouble=None)
 
 
 def reader(
-    life: Life | None, *, starting: bool = False, plans: Plans | None = None
+    life: Life | None,
+    *,
+    starting: bool = False,
+    plans: Plans | None = None,
+    state: RecorderState = IDLE,
 ) -> StatusReader:
     link = cast(Link, SimpleNamespace(life=life, starting=starting))
-    recorder = cast(Recorder, SimpleNamespace(state=lambda: IDLE, following=life))
+    recorder = cast(Recorder, SimpleNamespace(state=lambda: state, following=life))
     return StatusReader(link, recorder, plans or Plans(), 21e6, lambda: ROOM)
 
 
@@ -132,7 +137,24 @@ def test_the_run_under_way_with_what_is_expected_of_it(loop: WrittenBlock) -> No
         "cycles": 200,
         "elapsed_s": pytest.approx(40 * PERIOD_S),
         "duration_s": 4.8,
+        "recorded_s": 0.0,
     }
+
+
+def test_what_is_recorded_of_the_run_goes_on_where_its_program_holds(loop: WrittenBlock) -> None:
+    plans = Plans()
+    plans.remember(7, "Harmonic", {"blocks": [{"cycles": 0}], "duration_s": 4.8})
+    loop.begin(7)
+    loop.ticks(41, run=7)
+    loop.block.fields["program_ticks"] = 1
+
+    def recorded_s(run_id: int) -> float:
+        run = read(loop, plans=plans, state=replace(IDLE, run_id=run_id, ticks=41)).run
+        assert run is not None
+        return run.recorded_s
+
+    assert recorded_s(7) == pytest.approx(41 * PERIOD_S)
+    assert recorded_s(6) == 0.0  # it still ends the one before
 
 
 def test_what_is_missing_for_a_start_is_told(loop: WrittenBlock) -> None:
