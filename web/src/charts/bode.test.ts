@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import {
+  allStoodStill,
   extremesOf,
   extremeText,
   frequencies,
@@ -72,11 +73,16 @@ describe("a panel", () => {
     expect(bands[0]!.high).toBe(Infinity);
     expect(panelOf("phase", data([point(1, 1)], { bands: [band] })).bands).toEqual([]);
   });
+  it("draws no point whose output stood still: its phase is chance", () => {
+    const some = data([point(1, 0, 170), point(2, 1, -20)]);
+    expect((["gain", "phase", "coherence"] as const).map((name) => panelOf(name, some).series[0]!.length)).toEqual([1, 1, 0]);
+    expect([allStoodStill(some.series), allStoodStill(data([point(1, 0)]).series), allStoodStill([])]).toEqual([false, true, false]);
+  });
   it("has no coherence where none was measured", () => {
     const { series, range } = panelOf("coherence", data([point(1, 1), point(2, 1, 0, { coherence: 0.97 })]));
     expect(series[0]).toHaveLength(1);
     expect(range.min).toBeCloseTo(0.9425, 9);
-    expect(range.max).toBeCloseTo(1.0125, 9);
+    expect(range.max).toBeCloseTo(1.0175, 9);
   });
 });
 

@@ -127,9 +127,20 @@ function coherences(points: readonly BodePoint[]): Dot[] {
   );
 }
 
+/** Whether nothing came out: without a gain a phase is chance. */
+const stoodStill = ({ gain }: BodePoint): boolean => gain === 0;
+
+/** Whether there are points, and in none of them the output moved. */
+export function allStoodStill(series: readonly BodeSeries[]): boolean {
+  const all = series.flatMap(({ points }) => points);
+  return all.length > 0 && all.every(stoodStill);
+}
+
 /** The points of all series in order of frequency, as one panel shows them. */
 export function panelOf(name: PanelName, data: BodeData): Panel {
-  const ordered = data.series.map(({ points }) => [...points].sort((a, b) => a.frequency_hz - b.frequency_hz));
+  const ordered = data.series.map(({ points }) =>
+    points.filter((one) => !stoodStill(one)).sort((a, b) => a.frequency_hz - b.frequency_hz),
+  );
   if (name === "coherence") {
     const series = ordered.map(coherences);
     return { series, models: [], bands: [], range: coherenceRange(series.flat()) };
@@ -175,7 +186,7 @@ const FLOORS = [0.99, 0.98, 0.95, 0.9, 0.8, 0.5, 0] as const;
 function coherenceRange(dots: readonly Dot[]): Span {
   const least = Math.min(1, ...dots.map(({ y }) => y));
   const min = FLOORS.find((floor) => floor <= least - 0.001) ?? 0;
-  return { min: min - 0.15 * (1 - min), max: 1 + 0.25 * (1 - min) };
+  return { min: min - 0.15 * (1 - min), max: 1 + 0.35 * (1 - min) };
 }
 
 /** The frequencies of everything that is drawn, a little wider; of nothing, 1…100 Hz. */

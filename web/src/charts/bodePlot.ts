@@ -27,6 +27,7 @@ export class BodePanel {
   private named: readonly Named[] = [];
   private range = { min: 1, max: 100 };
   private at: number | null = null;
+  private fontSize = 0;
   private readonly ends: (() => void)[];
 
   constructor(
@@ -68,6 +69,7 @@ export class BodePanel {
   }
 
   private build(): uPlot {
+    this.fontSize = fontSize();
     return new uPlot(
       {
         width: this.host.clientWidth,
@@ -133,6 +135,7 @@ export class BodePanel {
   }
 
   private resize(): void {
+    if (fontSize() !== this.fontSize) return this.rebuild();
     this.plot.setSize({ width: this.host.clientWidth, height: this.host.clientHeight });
   }
 
