@@ -158,7 +158,7 @@ def test_control_is_taken_asked_for_given_kept_and_taken_over(screens: Screens) 
     eva.get_by_test_id("ask-reason").fill("To look at the valve")
     eva.keyboard.press("Enter")
     expect(ann.get_by_test_id("request")).to_contain_text(
-        "Eva asks for control. To look at the valve"
+        "Eva asks for command. To look at the valve"
     )
     expect(ann.get_by_test_id("request")).to_contain_text(re.compile(r"\d+ s left"))
     expect(eva.get_by_test_id("asked")).to_contain_text("You asked Ann")

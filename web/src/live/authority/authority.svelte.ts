@@ -63,7 +63,7 @@ class Authority {
   }
 
   ask(reason: string): Promise<boolean> {
-    return this.attempt("Asking for control", async () => {
+    return this.attempt("Asking for command", async () => {
       this.asking = { id: (await askForLease(reason.trim())).id, seen: false };
       this.open = false;
     });

@@ -35,7 +35,7 @@ export function notInCommand(standing: Standing, role: Role | null): string | nu
   if (standing.is === "here") return null;
   if (standing.is === "nobody") return "Take control first: C";
   if (standing.is === "other-window") return "You are in command in another window. Take it here: C";
-  return `${standing.lease.holder} is in command. Ask for control: C`;
+  return `${standing.lease.holder} is in command. Ask for command: C`;
 }
 
 /** What a status made of what this window held, or of what it had asked for. */
