@@ -11,6 +11,8 @@ export interface Field {
   readonly hint: string;
   /** May be left empty: no limit. */
   readonly optional?: boolean;
+  /** What holds then. */
+  readonly empty?: string;
 }
 
 export const GAINS: readonly Field[] = [
@@ -19,8 +21,8 @@ export const GAINS: readonly Field[] = [
   { path: "k_d", label: "K_D", unit: "s/N", hint: "Derivative of the filtered error" },
   { path: "derivative_hz", label: "Derivative corner", unit: "Hz", hint: "Corner of the derivative's filter" },
   { path: "k_ff", label: "K_FF", unit: "s/N", hint: "On the change of the setpoint" },
-  { path: "valve_limit", label: "Valve limit", unit: "", hint: "Saturation of the valve command, 0…1" },
-  { path: "valve_slew_per_s", label: "Valve slew", unit: "1/s", hint: "Empty: no limit", optional: true },
+  { path: "valve_limit", label: "Valve limit", unit: "0…1", hint: "Saturation of the valve command, 0…1" },
+  { path: "valve_slew_per_s", label: "Valve slew", unit: "1/s", hint: "Empty: no limit", optional: true, empty: "no limit" },
 ];
 
 export const BRANCH: readonly Field[] = [
@@ -30,7 +32,7 @@ export const BRANCH: readonly Field[] = [
   { path: "compensator.lead_pole_hz", label: "Lead pole", unit: "Hz", hint: "f_p of the lead" },
   { path: "compensator.low_pass_hz", label: "Low-pass", unit: "Hz", hint: "Corner of the low-pass" },
   { path: "compensator.low_pass_order", label: "Low-pass order", unit: "", hint: "1 or 2" },
-  { path: "compensator.low_pass_damping", label: "Low-pass damping", unit: "", hint: "Of order 2 only", optional: true },
+  { path: "compensator.low_pass_damping", label: "Low-pass damping", unit: "", hint: "Of order 2 only", optional: true, empty: "order 2 only" },
   { path: "compensator.notch_damping", label: "Notch damping ζ_d", unit: "", hint: "Half the width of the notch" },
   { path: "compensator.fade_s", label: "Fade", unit: "s", hint: "How long the branch takes to join or leave" },
 ];
