@@ -1,16 +1,15 @@
 """`forcerig bench estimators`: how right the estimators of the frequency response are, and how often.
 
-Each is held against a system whose response is a closed form, over many draws of its noise, and against
-the linearised rig. Told are the bias of the mean of all draws, and how many of the 95 % intervals hold
-the truth.
+Each is held against a system whose response is a closed form, over many draws of its noise, and on the
+virtual rig against its linearisation. Told are the bias of the mean of all draws, and how many of the 95 %
+intervals hold the truth.
 """
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from scipy import signal
 
 from app.analysis.evidence import Kind, Sine, Stretch
@@ -22,23 +21,13 @@ from app.analysis.response.stepped import SteppedSine
 from app.analysis.response.swept import swept_response
 from app.analysis.response.transfers import TRANSFERS
 from app.analysis.walk import Part
-from bench.known_systems import LEAD_TICKS, PERIOD_S, RESONANT, WHITE, Complex, Cubic, Floats, Loop
+from bench.draws import SEEDS, Draws, Said, draws_of, figures_of
+from bench.estimators_on_the_rig import cases as on_the_rig
+from bench.known_systems import LEAD_TICKS, PERIOD_S, RESONANT, WHITE, Cubic, Floats, Loop
 from bench.report import Figure, progress, show
 
-SEEDS = 200
 NOISE_N = 20.0
 AMPLITUDE_N = 1000.0
-BIAS_DB, BIAS_DEG = 0.02, 0.1
-HELD = (0.93, 0.97)
-
-
-class Draws(NamedTuple):
-    """What an estimator said over many draws: (draws, frequencies) gains and whether they held the truth."""
-
-    gain: Complex
-    gain_held: npt.NDArray[np.bool_]
-    phase_held: npt.NDArray[np.bool_]
-    truth: Complex
 
 
 def stepped(frequency_hz: float, cycles: int, colour: str, transfer: str = "force") -> Draws:
@@ -63,29 +52,8 @@ def stepped(frequency_hz: float, cycles: int, colour: str, transfer: str = "forc
         whole = np.ones(ticks, np.bool_)
         estimator.take(Part(stretch, True, np.arange(ticks), columns, whole))
         [point] = estimator.points()
-        found.append((point.gain, point.phase_deg, point.gain_95, point.phase_95_deg))
-    gain = np.array([[g * np.exp(1j * np.radians(p))] for g, p, _, _ in found])
-    held_gain = [[low <= abs(truth[0]) <= high] for _, _, (low, high), _ in found]
-    true_deg = float(np.degrees(np.angle(truth[0])))
-    held_phase = [[_within_deg(true_deg, *interval)] for *_, interval in found]
-    return Draws(gain, np.array(held_gain), np.array(held_phase), truth)
-
-
-def _within_deg(angle: float, low: float, high: float) -> bool:
-    middle, half = (low + high) / 2, (high - low) / 2
-    return abs((angle - middle + 180) % 360 - 180) <= half
-
-
-def _draws(curves: Iterable[tuple[Complex, Floats, Floats]], truth: Complex) -> Draws:
-    gains, held_gain, held_phase = [], [], []
-    for gain, gain_95, phase_95 in curves:
-        gains.append(gain)
-        size = np.abs(truth)
-        held_gain.append((gain_95[:, 0] <= size) & (size <= gain_95[:, 1]))
-        turned = np.degrees(np.angle(truth / gain))
-        half = (phase_95[:, 1] - phase_95[:, 0]) / 2
-        held_phase.append(np.abs(turned) <= half)
-    return Draws(np.array(gains), np.array(held_gain), np.array(held_phase), truth)
+        found.append(Said.at(point))
+    return draws_of(found, truth)
 
 
 def averaged(against: Against) -> Draws:
@@ -104,7 +72,7 @@ def averaged(against: Against) -> Draws:
         periodic: Any = {"reference": reference, "window": "boxcar", "overlap": 0.0}
         return spectral_response(u, y, PERIOD_S, size, against, **periodic)
 
-    def curves() -> Iterator[tuple[Complex, Floats, Floats]]:
+    def curves() -> Iterator[Said]:
         closed = loop.run(setpoint, SEEDS, NOISE_N, RESONANT)
         for seed in range(SEEDS):
             noise = np.random.default_rng(seed).normal(0, NOISE_N, len(settled))
@@ -115,11 +83,11 @@ def averaged(against: Against) -> Draws:
                 c = respond(settled + noise, clean)
             else:
                 c = respond(settled, clean + noise)
-            yield c.gain[lines], c.gain_95[lines], c.phase_95_deg[lines]
+            yield Said.by(c, lines)
 
     frequencies_hz = np.arange(1, size // 2)[lines] / (size * PERIOD_S)
     true = loop.plant if against is Against.REFERENCE else loop.response
-    return _draws(curves(), true(frequencies_hz))
+    return draws_of(curves(), true(frequencies_hz))
 
 
 def swept() -> Draws:
@@ -130,12 +98,12 @@ def swept() -> Draws:
     sweep = AMPLITUDE_N * np.sin(phase) * signal.windows.tukey(ticks, 0.05)
     setpoint = np.concatenate([np.zeros(LEAD_TICKS), sweep, np.zeros(2000)])
 
-    def curves() -> Iterator[tuple[Complex, Floats, Floats]]:
+    def curves() -> Iterator[Said]:
         for output, _ in loop.run(setpoint, SEEDS, NOISE_N, RESONANT):
             c = swept_response(setpoint[LEAD_TICKS:], output, PERIOD_S, frequencies_hz)
-            yield c.gain, c.gain_95, c.phase_95_deg
+            yield Said.by(c)
 
-    return _draws(curves(), loop.response(frequencies_hz))
+    return draws_of(curves(), loop.response(frequencies_hz))
 
 
 LINES = np.arange(1, 60, 2)
@@ -163,8 +131,7 @@ def best_linear(
             found.append(fast(drawn, "u", "y", system.lines, LEFT_OUT, period_s))
         else:
             found.append(robust(drawn, "u", "y", system.lines, period_s))
-    curves = ((c.gain, c.gain_95, c.phase_95_deg) for c in found)
-    return _draws(curves, system.best_linear()), found
+    return draws_of(map(Said.by, found), system.best_linear()), found
 
 
 def _realisation(system: Cubic, rng: np.random.Generator) -> Realisation:
@@ -234,20 +201,6 @@ def _cases() -> Iterator[tuple[str, str, Callable[[], Draws]]]:
     yield "bla_fast", "best linear, lines left out", lambda: best_linear(2, SEEDS, quick=True)[0]
 
 
-def _figures_of(name: str, what: str, draws: Draws) -> Iterator[Figure]:
-    apart = draws.gain.mean(axis=0) / draws.truth
-    bias_db = float(np.max(np.abs(20 * np.log10(np.abs(apart)))))
-    bias_deg = float(np.max(np.abs(np.degrees(np.angle(apart)))))
-    yield Figure(f"{name}_bias_db", f"{what}: bias", bias_db, "dB", at_most=BIAS_DB)
-    yield Figure(f"{name}_bias_deg", f"{what}: bias", bias_deg, "°", at_most=BIAS_DEG)
-    for kind, held in (("gain", draws.gain_held), ("phase", draws.phase_held)):
-        share = float(held.mean())
-        note = f"{100 * share:.1f} % of {held.size:,}"
-        yield Figure(
-            f"{name}_{kind}_held", f"{what}: {kind} held", share, "-", HELD[1], HELD[0], note
-        )
-
-
 def nonlinear_figures() -> Iterator[Figure]:
     """The variance of the distortion, of both methods, against that which was counted out."""
     truth = cubic().nonlinear_variance()
@@ -262,10 +215,10 @@ def nonlinear_figures() -> Iterator[Figure]:
 
 
 def figures() -> Iterator[Figure]:
-    """Every estimator against closed forms."""
-    for name, what, draw in _cases():
+    """Every estimator against closed forms, then on the virtual rig."""
+    for name, what, draw in (*_cases(), *on_the_rig()):
         progress(what)
-        yield from _figures_of(name, what, draw())
+        yield from figures_of(name, what, draw())
     yield from nonlinear_figures()
     yield from rival_coverage()
 
