@@ -58,11 +58,14 @@ class Walk:
         period_s: float,
         first_tick: int | None = None,
         also: Iterable[str] = (),
+        counts: bool = False,
     ) -> None:
         """`first_tick` is that of the run, where it is not that of the first record.
 
-        `also` are channels that the parts have beside those `NEEDED`.
+        `also` are channels that the parts have beside those `NEEDED`. `counts` is for the motion's program, of
+        which nothing is ever skipped: `POSITION` is of the force's.
         """
+        self._counts = counts
         self._names = tuple(dict.fromkeys([*NEEDED, *also]))
         self._stretches = iter(stretches)
         self._stretch: Stretch | None = None
@@ -89,7 +92,7 @@ class Walk:
         _follow(
             self._at.reshape(1), ticks, _plain(chunk, "mode"), self._fade_ticks, positions, kept
         )
-        if POSITION in _names_of(chunk):
+        if POSITION in _names_of(chunk) and not self._counts:
             told = chunk[POSITION]
             positions = np.where(told >= 0, told, positions)
         columns = {name: _plain(chunk, name) for name in self._names}

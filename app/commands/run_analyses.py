@@ -14,10 +14,10 @@ from rich.table import Table
 
 from app.analysis.goodness import goodness_of_fit
 from app.analysis.response.extremes import find_extremes
-from app.analysis.response.transfers import TRANSFERS
+from app.analysis.response.transfers import MOTION_TRANSFERS, TRANSFERS
 from app.commands.output import Exit, print_json, print_refusal, progress_bar, text_console
 from app.conducting.found import Found
-from app.conducting.responding import NEEDS, Responding, responses_in
+from app.conducting.responding import NEEDS, Responding, responds
 from app.definitions.definition import Definition
 from app.definitions.reading import definition_from
 from app.documents.messages import nearest
@@ -25,6 +25,7 @@ from app.errors import Code, Refusal
 from app.exports.extract import Extract, Wanted, extract
 
 HEADINGS = ("N", "mean N", "Hz", "gain", "± of 95 %", "dB", "°", "± of 95 %", "coherence", "THD %")
+KNOWN = TRANSFERS | MOTION_TRANSFERS  # those that need no model of the rig
 WIDEST = 120  # a table that is cut tells nobody anything
 CHANNELS = ("force_n", "force_command_n", "program_tick")
 
@@ -42,16 +43,16 @@ def frequency_response(path: Path, transfer: str, printed: Printed) -> Exit:
     if printed.as_json and printed.as_csv:
         detail = "Either --json or --csv: leave one of them out"
         return print_refusal(Refusal(Code.INVALID_REQUEST, detail), printed.as_json)
-    if transfer not in TRANSFERS:
-        known = ", ".join(TRANSFERS)
-        detail = f"There is no transfer '{transfer}'{nearest(transfer, TRANSFERS)} Known: {known}"
+    if transfer not in KNOWN:
+        known = ", ".join(KNOWN)
+        detail = f"There is no transfer '{transfer}'{nearest(transfer, KNOWN)} Known: {known}"
         return print_refusal(Refusal(Code.INVALID_REQUEST, detail), printed.as_json)
     found = _points(path)
     if isinstance(found, Refusal):
         return print_refusal(found, printed.as_json)
     rows = [_row(one) for one in found if one.point.transfer == transfer]
     if printed.as_json:
-        print_json({"transfer": transfer, "unit": TRANSFERS[transfer].unit, "points": rows})
+        print_json({"transfer": transfer, "unit": KNOWN[transfer].unit, "points": rows})
     elif printed.as_csv:
         _print_csv(rows)
     else:
@@ -100,8 +101,10 @@ def _points(path: Path) -> list[Found] | Refusal:
     definition = definition_from(dict(run.description["definition"]))
     if not isinstance(definition, Definition):
         return definition
-    if not responses_in(definition):
-        detail = f"{path.name}: its test has no block of the kind frequency_response"
+    if not responds(definition):
+        detail = (
+            f"{path.name}: its test has no frequency_response, no sweep and no motion multisine"
+        )
         return Refusal(Code.INVALID_REQUEST, detail)
     responding = Responding(definition, run.period_s, run.origin_tick)
     with progress_bar("Fitting") as progress:
@@ -112,11 +115,12 @@ def _points(path: Path) -> list[Found] | Refusal:
 
 def _row(found: Found) -> dict[str, Any]:
     point = found.point
-    has_db = TRANSFERS[point.transfer].unit == "1" and point.gain > 0
+    has_db = KNOWN[point.transfer].unit == "1" and point.gain > 0
     return {
         "method": found.method,
         "block": point.block,
         "amplitude_n": point.amplitude_n,
+        "amplitude_m": found.amplitude_m,
         "mean_n": point.mean_n,
         "frequency_hz": point.frequency_hz,
         "gain": _finite(point.gain),
@@ -166,9 +170,10 @@ def _print_csv(rows: list[dict[str, Any]]) -> None:
 def _print_points(transfer: str, rows: list[dict[str, Any]]) -> None:
     console = text_console()
     console.width = max(console.width, WIDEST)
-    console.print(f"{TRANSFERS[transfer].doc}, {TRANSFERS[transfer].unit}", markup=False)
+    console.print(f"{KNOWN[transfer].doc}, {KNOWN[transfer].unit}", markup=False)
+    amplitude = "mm" if transfer in MOTION_TRANSFERS else "N"
     table = Table(
-        "N", "mean N", "Hz", "gain", "± 95 %", "dB", "°", "± 95 % °", "coherence", "THD %"
+        amplitude, "mean N", "Hz", "gain", "± 95 %", "dB", "°", "± 95 % °", "coherence", "THD %"
     )
     for row in rows:
         table.add_row(*_cells(row))
@@ -180,17 +185,25 @@ def _print_points(transfer: str, rows: list[dict[str, Any]]) -> None:
 def _cells(row: dict[str, Any]) -> Iterator[str]:
     half_deg = (row["phase_high_deg"] - row["phase_low_deg"]) / 2
     half = None if row["gain_high"] is None else row["gain_high"] - row["gain"]
-    names = ("amplitude_n", "mean_n", "frequency_hz", "gain")
-    values = [row[name] for name in names] + [half, row["gain_db"], row["phase_deg"], half_deg]
+    names = ("mean_n", "frequency_hz", "gain")
+    values = [_amplitude(row), *(row[name] for name in names)]
+    values += [half, row["gain_db"], row["phase_deg"], half_deg]
     for value in [*values, row["coherence"], row["distortion_percent"]]:
         yield "" if value is None else f"{value:,.4g}"
 
 
+def _amplitude(row: dict[str, Any]) -> float:
+    """Of the force in N, or of the motion in mm."""
+    amplitude_m = row["amplitude_m"]
+    return float(row["amplitude_n"] if amplitude_m is None else 1e3 * amplitude_m)
+
+
 def _extremes(transfer: str, rows: list[dict[str, Any]]) -> Iterator[str]:
-    if TRANSFERS[transfer].unit != "1":
+    if KNOWN[transfer].unit != "1":
         return
-    for load in dict.fromkeys((row["amplitude_n"], row["mean_n"]) for row in rows):
-        here = [row for row in rows if (row["amplitude_n"], row["mean_n"]) == load]
+    unit = "mm" if transfer in MOTION_TRANSFERS else "N"
+    for load in dict.fromkeys((_amplitude(row), row["mean_n"]) for row in rows):
+        here = [row for row in rows if (_amplitude(row), row["mean_n"]) == load]
         gain = np.array([row["gain"] for row in here])
         turned = np.exp(1j * np.radians([row["phase_deg"] for row in here]))
         found = find_extremes([row["frequency_hz"] for row in here], gain * turned)
@@ -205,4 +218,4 @@ def _extremes(transfer: str, rows: list[dict[str, Any]]) -> Iterator[str]:
             if at is not None
         ]
         if said:
-            yield f"{load[0]:,g} N on {load[1]:,g} N: {', '.join(said)}"
+            yield f"{load[0]:,g} {unit} on {load[1]:,g} N: {', '.join(said)}"

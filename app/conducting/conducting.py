@@ -3,8 +3,10 @@
 import numpy as np
 
 from app.analysis.response.point import ResponsePoint
+from app.analysis.response.transfers import MOTION_TRANSFERS
 from app.analysis.walk import POSITION, Columns
 from app.conducting.conductor import MEASURED, Conductor
+from app.conducting.positions import multisines_in
 from app.conducting.responding import Responding, responses_in
 from app.conducting.score import scores_of
 from app.definitions.definition import Definition
@@ -13,6 +15,7 @@ from app.definitions.responses import FrequencyResponse
 from rtcore.modes import Mode
 from rtcore.rig.parameters import RigParameters
 
+COUNTED = {MEASURED, *MOTION_TRANSFERS}  # of which each point is one that was asked for
 LOOK_TICKS = 80  # 20 ms: how often it is decided what to leave out
 
 
@@ -34,6 +37,7 @@ class Conducting:
         self._period_s = period_s
         self._ticks = sum(block.duration_s for block in outline(definition).blocks) / period_s
         self._expected = sum(_points_of(asked) for asked in responses_in(definition))
+        self._expected += sum(len(m.grid().lines) for m in multisines_in(definition).values())
         self._played = 0  # ticks in which the program went on
         self._position = 0
 
@@ -46,7 +50,7 @@ class Conducting:
 
     def progress(self) -> tuple[int, int, float | None]:
         """Points so far, of how many expected, and seconds left at the pace so far."""
-        points = {f.point[1:5] for f in self.responding.points() if f.point.transfer == MEASURED}
+        points = {f.point[:5] for f in self.responding.points() if f.point.transfer in COUNTED}
         left_ticks = max(0.0, self._ticks - self._position)
         pace = self._played / self._position if self._position else 1.0
         seconds_left = left_ticks * pace * self._period_s

@@ -1,7 +1,8 @@
 """The response of multisine blocks while they are played: a best linear approximation after each period."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,20 +15,35 @@ from app.analysis.response.transfers import TRANSFERS, Transfer
 from app.analysis.walk import Part
 from app.conducting.found import Found
 from app.definitions.limits import RIG
+from app.definitions.multisine import Grid
 from app.definitions.responses import FrequencyResponse
 
-_CHANNELS = channels_of(TRANSFERS.values())
+
+class Played(NamedTuple):
+    """What is played of a multisine: mean and amplitude (N) of each realisation in turn, led in to and settled."""
+
+    grid: Grid
+    loads: Sequence[tuple[float, float]]
+    settle_cycles: int
+    left_out: tuple[int, ...] = ()  # odd lines that show distortion because they are not played
 
 
 class Multisine:
-    """One block: means, amplitudes and realisations follow one another, each led in to."""
+    """One block: means, amplitudes and realisations follow one another."""
 
-    def __init__(self, block: int, asked: FrequencyResponse) -> None:
-        self._block, self._asked = block, asked
-        self._grid = asked.grid()
-        self._left_out = _left_out(asked)
-        loads = [(mean, amplitude) for mean in asked.means() for amplitude in asked.amplitudes_n]
-        self._loads = [load for load in loads for _ in range(asked.realisations)]
+    def __init__(
+        self,
+        block: int,
+        played: Played,
+        transfers: Mapping[str, Transfer] = TRANSFERS,
+        corrected: Callable[[Realisation], Realisation] = lambda realisation: realisation,
+    ) -> None:
+        """`corrected` makes of a realisation what the transfers are read from."""
+        self._block = block
+        self._grid, self._loads, self._settle, self._left_out = played
+        self._transfers = tuple(transfers.values())
+        self._corrected = corrected
+        self._channels = channels_of(self._transfers)
         self._number = -1
         self._leads = False
         self._periods: Periods | None = None
@@ -63,7 +79,7 @@ class Multisine:
         for mean_n, amplitude_n in loads:
             realisations = self._of((mean_n, amplitude_n))
             with np.errstate(divide="ignore", invalid="ignore"):  # of what stands still: no point
-                for transfer in TRANSFERS.values() if realisations else ():
+                for transfer in self._transfers if realisations else ():
                     found += self._read(transfer, realisations, mean_n, amplitude_n)
         return found
 
@@ -71,8 +87,7 @@ class Multisine:
         self._file()
         self._number = (self._number + 1) % len(self._loads)
         lines = sorted({*self._grid.lines, *self._left_out})
-        settle = self._asked.settle_cycles
-        self._periods = Periods(_CHANNELS, self._grid.period_ticks, lines, settle)
+        self._periods = Periods(self._channels, self._grid.period_ticks, lines, self._settle)
 
     def _file(self) -> None:
         done = None if self._periods is None else self._periods.realisation()
@@ -84,7 +99,7 @@ class Multisine:
         going_on = None if self._periods is None else self._periods.realisation()
         if going_on is not None and self._loads[self._number] == load:
             found.append(going_on)
-        return found
+        return [self._corrected(realisation) for realisation in found]
 
     def _read(
         self,
@@ -141,8 +156,14 @@ def _deviation(variance: float) -> float | None:
     return math.sqrt(variance) if math.isfinite(variance) and variance >= 0 else None
 
 
+def played_of(asked: FrequencyResponse) -> Played:
+    """What a block plays."""
+    loads = [(mean, amplitude) for mean in asked.means() for amplitude in asked.amplitudes_n]
+    each = [load for load in loads for _ in range(asked.realisations)]
+    return Played(asked.grid(), each, asked.settle_cycles, _left_out(asked))
+
+
 def _left_out(asked: FrequencyResponse) -> tuple[int, ...]:
-    """Odd lines that show distortion because they are not played."""
     if asked.lines != "odd_random":
         return ()
     odd = asked.model_copy(update={"lines": "odd"}).grid().lines

@@ -1,12 +1,14 @@
 """Every frequency response of a run, as far as it has got: chunk after chunk, with flat memory."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from app.analysis.response.stepped import SteppedSine, channels_of
 from app.analysis.response.transfers import TRANSFERS
 from app.analysis.walk import NEEDED, POSITION, Columns, Part, Walk
 from app.conducting.found import Found
-from app.conducting.multisines import Multisine
+from app.conducting.multisines import Multisine, played_of
+from app.conducting.positions import CHANNELS as OF_MOTION
+from app.conducting.positions import PositionResponses, multisines_in
 from app.conducting.sweeps import SweptSine
 from app.definitions.blocks import Block, Repeat, Sweep
 from app.definitions.definition import Definition
@@ -16,16 +18,20 @@ from app.documents.tree import Path
 from rtcore.rig.parameters import RigParameters
 
 CHANNELS = channels_of(TRANSFERS.values())
-NEEDS = tuple(dict.fromkeys([POSITION, *NEEDED, *CHANNELS]))
+NEEDS = tuple(dict.fromkeys([POSITION, *NEEDED, *CHANNELS, *OF_MOTION]))
 
 
-def responds(definition: Definition | Repeat) -> bool:
+def responds(definition: Definition) -> bool:
     """Whether there is anything in a test that has a response: sines, multisines, sweeps."""
+    return _excites(definition.blocks) or bool(multisines_in(definition))
+
+
+def _excites(blocks: Iterable[Block]) -> bool:
     return any(
-        responds(block)
+        _excites(block.blocks)
         if isinstance(block, Repeat)
         else isinstance(block, FrequencyResponse | Sweep)
-        for block in definition.blocks
+        for block in blocks
     )
 
 
@@ -59,9 +65,11 @@ class Responding:
         self._stepped = SteppedSine(period_s, rig=rig)
         self._multisines: dict[Path, Multisine] = {}
         self._sweeps: dict[Path, SweptSine] = {}
+        self._positions = PositionResponses(definition, period_s, first_tick)
 
     def take(self, chunk: Columns, also: Callable[[Part], None] | None = None) -> None:
-        """The next ticks of the run; each part of a response goes to `also` too."""
+        """The next ticks of the run; each part of a response of the force goes to `also` too."""
+        self._positions.take(chunk)
         for part in self._walk.take(chunk):
             asked = block_at(self._definition, part.stretch.path)
             if isinstance(asked, Sweep):
@@ -80,7 +88,7 @@ class Responding:
         stepped = [Found("stepped_sine", point) for point in self._stepped.points()]
         multisines = [found for one in self._multisines.values() for found in one.points()]
         sweeps = [found for one in self._sweeps.values() for found in one.points()]
-        return stepped + multisines + sweeps
+        return stepped + multisines + sweeps + self._positions.points()
 
     def latest(self) -> list[Found]:
         """The stepped sine that is being measured now, of each transfer."""
@@ -95,7 +103,7 @@ class Responding:
     def _multisine(self, part: Part, asked: FrequencyResponse) -> Multisine:
         path = part.stretch.path
         if path not in self._multisines:
-            self._multisines[path] = Multisine(part.stretch.block, asked)
+            self._multisines[path] = Multisine(part.stretch.block, played_of(asked))
         return self._multisines[path]
 
 

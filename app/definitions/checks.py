@@ -44,3 +44,21 @@ def slow_enough(field: str, amplitude_m: float, frequency_hz: float) -> None:
             f"{say(velocity_m_s, 'm/s')}, must be at most {say(limit, 'm/s')}"
         )
         raise wrong(field, message, value=velocity_m_s, limit=limit, unit="m/s")
+
+
+def slow_enough_together(field: str, amplitude_m: float, steepest_per_s: float) -> None:
+    """A course of an amplitude within the velocity of the unit; `steepest_per_s` is of the amplitude 1."""
+    velocity_m_s, limit = amplitude_m * steepest_per_s, RIG.velocity_limit_m_s
+    if not velocity_m_s <= limit:
+        right = say(_below(limit / steepest_per_s), "m")
+        message = (
+            f"{say(amplitude_m, 'm')} of these frequencies reaches {say(velocity_m_s, 'm/s')}, "
+            f"must be at most {say(limit, 'm/s')}: {right} would do"
+        )
+        raise wrong(field, message, value=velocity_m_s, limit=limit, unit="m/s")
+
+
+def _below(value: float) -> float:
+    """Three digits of a number > 0, rounded down."""
+    digit = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return math.floor(value / digit) * digit

@@ -18,8 +18,12 @@ from app.definitions.limits import RIG
 from app.histories.history import History, from_values
 
 Lines = Literal["all", "odd", "odd_random"]
+Floats = npt.NDArray[np.float64]
 _GROUP = 4  # of successive odd lines: one of them is left out
 _CLIPPED = np.linspace(0.3, 0.95, 200)  # of the peak, round by round
+_QUICKLY = _CLIPPED[
+    ::4
+]  # where there are several realisations: 3 % more crest in a quarter of the time
 _ENDLESS = 1e12
 _LARGEST = 1 << 15  # samples of a period whose phases are worth the rounds
 
@@ -73,30 +77,59 @@ def chosen(grid: Grid, lines: Lines) -> Grid:
 @lru_cache(maxsize=8)  # of up to 3 MB
 def period_of(grid: Grid) -> History:
     """One period at the loop's rate, its first sample again at its end, its greatest value 1."""
-    phases = _phases(grid)
+    return _played(grid, np.exp(1j * _phases(grid)))
+
+
+@lru_cache(maxsize=32)  # of up to 3 MB: all realisations of a motion
+def moving_period_of(grid: Grid, corner_hz: float | None = None) -> History:
+    """The same for a unit under test, which is limited in its velocity: that is what has little crest.
+
+    Above the corner the lines fall with their frequency. The phases begin at random, others for each realisation.
+    """
+    hz = np.array(grid.frequencies_hz())
+    sizes = np.ones(len(hz)) if corner_hz is None else np.minimum(1.0, corner_hz / hz)
+    phases = _least_crest(list(grid.lines), sizes * hz, _drawn(grid), _QUICKLY)
+    return _played(grid, sizes * np.exp(1j * phases) / 1j)
+
+
+def _played(grid: Grid, amplitudes: npt.NDArray[np.complex128]) -> History:
+    """A period of these (lines,), its greatest value 1."""
     spectrum = np.zeros(grid.period_ticks // 2 + 1, np.complex128)
-    spectrum[list(grid.lines)] = np.exp(1j * phases)
+    spectrum[list(grid.lines)] = amplitudes
     wave = np.fft.irfft(spectrum, grid.period_ticks)
     wave /= np.abs(wave).max()
     return from_values(np.append(wave, wave[0]), RIG.loop_rate_hz)
 
 
-def _phases(grid: Grid) -> npt.NDArray[np.float64]:
+def _phases(grid: Grid) -> Floats:
     """(lines,) rad, of a low crest: 1.5 for lines side by side, 2.2 for lines at equal ratios.
 
     Of a further realisation they are random, evenly from 0 to 2π: what the best linear approximation asks for.
     """
-    lines = list(grid.lines)
     if grid.realisation:
-        drawn = np.random.default_rng([grid.realisation, len(lines)])
-        return drawn.uniform(0, 2 * np.pi, len(lines))
+        return _drawn(grid)
+    lines = list(grid.lines)
     # Each line has its turn in the period: the delay grows with the power that lies below.
     delay = (np.arange(len(lines)) + 0.5) / len(lines)
-    best = phases = -2 * np.pi * np.cumsum(np.diff(lines, prepend=0) * delay)
+    schroeder = -2 * np.pi * np.cumsum(np.diff(lines, prepend=0) * delay)
+    return _least_crest(lines, np.ones(len(lines)), schroeder)
+
+
+def _drawn(grid: Grid) -> Floats:
+    """(lines,) rad at random, others for each realisation."""
+    drawn = np.random.default_rng([grid.realisation, len(grid.lines)])
+    return drawn.uniform(0, 2 * np.pi, len(grid.lines))
+
+
+def _least_crest(
+    lines: list[int], sizes: Floats, phases: Floats, rounds: Floats = _CLIPPED
+) -> Floats:
+    """(lines,) rad: from these phases on to those of the least crest that clipping finds."""
+    best = phases
     size, least = 1 << (16 * max(lines) - 1).bit_length(), math.inf
-    for clipped in _CLIPPED if size <= _LARGEST else ():
+    for clipped in rounds if size <= _LARGEST else ():
         spectrum = np.zeros(size // 2 + 1, np.complex128)
-        spectrum[lines] = np.exp(1j * phases)
+        spectrum[lines] = sizes * np.exp(1j * phases)
         wave = np.fft.irfft(spectrum, size)
         peak = float(np.abs(wave).max())
         if peak < least:

@@ -123,6 +123,12 @@ def _multisine(b: FrequencyResponse) -> list[Node]:
     return [node for track in tracks for node in course(track, periods, FORCE_LEAD_S)]
 
 
+def _motion_multisine(m: motion.MotionMultisine) -> list[Node]:
+    times = m.settle_cycles + m.measure_cycles
+    tracks = [Track(period, m.amplitude_m, m.mean_m, held=m.mean_m) for period in m.periods()]
+    return [node for track in tracks for node in course(track, times, MOTION_LEAD_S)]
+
+
 def _motion_harmonic(m: motion.MotionHarmonic) -> list[Node]:
     sine = Sine(m.mean_m, m.amplitude_m, m.frequency_hz)
     duration_s = _duration_s(m.cycles, m.frequency_hz, m.duration_s)
@@ -146,5 +152,6 @@ _MOTIONS: dict[type, Callable[[Any], list[Node]]] = {
     motion.MotionRamp: lambda m: ramp(m.to_m, m.rate_m_s, m.duration_s),
     motion.MotionStep: lambda m: step(m.to_m, m.rise_s, m.hold_s, is_step=m.rise_s == 0),
     motion.MotionHarmonic: _motion_harmonic,
+    motion.MotionMultisine: _motion_multisine,
     motion.MotionHistory: lambda m: course(Track(m.history, m.gain), m.repeats, MOTION_LEAD_S),
 }

@@ -42,6 +42,33 @@ Frequencies = Annotated[
 ]
 
 
+def listed(asked: Frequencies) -> tuple[float, ...]:
+    """As they were asked for, in Hz."""
+    if isinstance(asked, Band):
+        return tuple(np.geomspace(asked.from_hz, asked.to_hz, asked.points).tolist())
+    return asked
+
+
+def grid_of(asked: Frequencies) -> Grid:
+    """The period of a multisine of these frequencies and the lines in it."""
+    return (grid_of_band if isinstance(asked, Band) else grid_of_list)(listed(asked))
+
+
+def refuse_long_period(grid: Grid) -> None:
+    """Refuse the `frequencies_hz` of a multisine that would take long to repeat."""
+    limit, period_s = RIG.multisine_limit_s, grid.period_ticks * RIG.period_s
+    if period_s > limit:
+        message = (
+            f"these frequencies have a common period of {say(period_s, 's')}, "
+            f"must be at most {say(limit, 's')}: choose multiples of one frequency"
+        )
+        raise wrong("frequencies_hz", message, value=period_s, limit=limit, unit="s")
+    if max(grid.lines) * 2 >= grid.period_ticks:
+        limit = RIG.frequency_limit_hz
+        message = f"must be below {say(limit, 'Hz')}"
+        raise wrong("frequencies_hz", message, limit=limit, unit="Hz")
+
+
 class FrequencyResponse(Document):
     """At each mean and amplitude every frequency, settled and then measured.
 
@@ -79,7 +106,7 @@ class FrequencyResponse(Document):
         self._refuse_many()
         self._refuse_what_is_of_the_other_method()
         if self.method == "multisine":
-            self._refuse_long_period()
+            refuse_long_period(self.grid())
         return self
 
     @property
@@ -93,16 +120,11 @@ class FrequencyResponse(Document):
 
     def frequencies(self) -> tuple[float, ...]:
         """As they were asked for, in Hz."""
-        asked = self.frequencies_hz
-        if isinstance(asked, Band):
-            return tuple(np.geomspace(asked.from_hz, asked.to_hz, asked.points).tolist())
-        return asked
+        return listed(self.frequencies_hz)
 
     def grid(self) -> Grid:
         """The period of the multisine and the lines in it."""
-        banded = isinstance(self.frequencies_hz, Band)
-        grid = (grid_of_band if banded else grid_of_list)(self.frequencies())
-        return chosen(grid, self.lines)
+        return chosen(grid_of(self.frequencies_hz), self.lines)
 
     def _refuse_many(self) -> None:
         points = len(self.means()) * len(self.amplitudes_n) * len(self.frequencies())
@@ -136,17 +158,3 @@ class FrequencyResponse(Document):
         if self.auto_resolution is not None and len(self.frequencies()) < MIN_TO_BEND:
             message = f"at least {MIN_TO_BEND} frequencies are needed to see where a response bends"
             raise wrong("auto_resolution", message, limit=MIN_TO_BEND)
-
-    def _refuse_long_period(self) -> None:
-        grid, limit = self.grid(), RIG.multisine_limit_s
-        period_s = grid.period_ticks * RIG.period_s
-        if period_s > limit:
-            message = (
-                f"these frequencies have a common period of {say(period_s, 's')}, "
-                f"must be at most {say(limit, 's')}: choose multiples of one frequency"
-            )
-            raise wrong("frequencies_hz", message, value=period_s, limit=limit, unit="s")
-        if max(grid.lines) * 2 >= grid.period_ticks:
-            limit = RIG.frequency_limit_hz
-            message = f"must be below {say(limit, 'Hz')}"
-            raise wrong("frequencies_hz", message, limit=limit, unit="Hz")

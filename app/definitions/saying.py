@@ -6,7 +6,7 @@ from typing import Any
 from app.definitions.blocks import Block, Layers, Repeat, Sweep
 from app.definitions.courses import TimeCourse
 from app.definitions.limits import RIG
-from app.definitions.motions import Motion
+from app.definitions.motions import Motion, MotionMultisine
 from app.definitions.responses import FrequencyResponse
 from app.documents.units import say
 
@@ -36,6 +36,15 @@ def _response(b: FrequencyResponse) -> str:
     return what
 
 
+def _motion_multisine(m: MotionMultisine) -> str:
+    grid = m.grid()
+    hz = grid.frequencies_hz()
+    return (
+        f"{len(hz)} frequencies, {say(min(hz), 'Hz')} to {say(max(hz), 'Hz')}, {m.realisations} "
+        f"realisations, period {say(grid.period_ticks * RIG.period_s, 's')}"
+    )
+
+
 def _history(b: TimeCourse) -> str:
     found = b.history
     times = f", {b.repeats:,} times" if b.repeats > 1 else ""
@@ -48,6 +57,7 @@ def _history(b: TimeCourse) -> str:
 _WORDS: tuple[tuple[type, Callable[[Any], str]], ...] = (
     (Sweep, _sweep),
     (FrequencyResponse, _response),
+    (MotionMultisine, _motion_multisine),
     (TimeCourse, _history),
     (Layers, lambda b: f"{len(b.layers)} layers, {b.repeats:,} times"),
     (Repeat, lambda b: f"{', '.join(inner.kind for inner in b.blocks)}, {b.times:,} times"),

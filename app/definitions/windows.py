@@ -6,7 +6,7 @@ from typing import NamedTuple
 from app.analysis.evidence import Kind, Sine, StepWindow, Stretch, Windows
 from app.definitions.definition import Definition
 from app.definitions.extent import AT_REST, State, after, cycles_of, ticks_of
-from app.definitions.nodes import force_nodes
+from app.definitions.nodes import force_nodes, motion_nodes
 from app.definitions.pieces import Node, Piece, unrolled
 from rtcore.program.segments import Segment
 
@@ -41,7 +41,15 @@ def windows(definition: Definition, at_most_ticks: int) -> Windows:
 
 def stretches(definition: Definition) -> Iterator[Stretch]:
     """The whole force program in playing order, lazily; a step and what follows it are one."""
-    blocks = force_nodes(definition.blocks, definition.controller.compensation)
+    return _stretches(force_nodes(definition.blocks, definition.controller.compensation))
+
+
+def motion_stretches(definition: Definition) -> Iterator[Stretch]:
+    """The same of the motion: what is in N there is in m here, and blocks are motions."""
+    return _stretches(motion_nodes(definition.motion))
+
+
+def _stretches(blocks: Iterable[Iterable[Node]]) -> Iterator[Stretch]:
     step: _Played | None = None
     for played in _play(node for nodes in blocks for node in nodes):
         if played.piece.is_step:

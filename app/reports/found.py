@@ -9,15 +9,15 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from app.analysis.response.transfers import TRANSFERS
+from app.analysis.response.transfers import EVERY
 from app.conducting.found import Found as Point
-from app.conducting.responding import NEEDS, Responding, responses_in
+from app.conducting.responding import NEEDS, Responding, responds, responses_in
 from app.definitions.definition import Definition
 from app.definitions.responses import FrequencyResponse
 from app.recording.samples import Columns, Samples
 from app.run_analysis.schemas import RunAnalysis
 from app.runs.response_file import read_points
-from app.runs.response_model import Load, model_curve
+from app.runs.response_model import loads_of, model_curve, position_curve
 from app.runs.response_schemas import ModelCurve, ResponseOut, ResponseSeries, TransferName
 from app.runs.response_series import bands_of, series_of
 
@@ -41,9 +41,9 @@ class Found:
     @cached_property
     def responses(self) -> tuple[ResponseOut, ...]:
         """Every transfer of which there are points."""
-        asked = responses_in(self.definition)
-        if not asked:
+        if not responds(self.definition):
             return ()
+        asked = responses_in(self.definition)
         points = None if self.folder is None else read_points(self.folder)
         if points is None:
             points = self._points()
@@ -68,26 +68,26 @@ class Found:
         self, name: TransferName, points: Sequence[Point], asked: Sequence[FrequencyResponse]
     ) -> ResponseOut:
         series = series_of(points, name, asked)
-        is_force = name == "force"
         return ResponseOut(
             transfer=name,
-            unit=TRANSFERS[name].unit,
+            unit=EVERY[name].unit,
             available=[],
             series=series,
-            model=list(self._models(series)) if is_force else [],
-            bands=bands_of(asked) if is_force else [],
+            model=list(self._models(name, series)),
+            bands=bands_of(asked) if name == "force" else [],
             progress=None,
         )
 
-    def _models(self, series: Iterable[ResponseSeries]) -> Iterator[ModelCurve]:
+    def _models(self, name: TransferName, series: Iterable[ResponseSeries]) -> Iterator[ModelCurve]:
         made_with = {"rig": self.rig, "controller": self.controller}
-        for one in series:
-            if len(one.points) > 1:
-                ends = one.points[0].frequency_hz, one.points[-1].frequency_hz
-                load = Load(one.amplitude_n, one.mean_n, *ends)
-                curve = model_curve(made_with, load, self.period_s)
-                if curve is not None:
-                    yield curve
+        for load in loads_of(series) if name in ("force", "position") else ():
+            curve = (
+                model_curve(made_with, load, self.period_s)
+                if name == "force"
+                else position_curve(made_with, load)
+            )
+            if curve is not None:
+                yield curve
 
 
 def _transfers(points: Iterable[Point]) -> list[TransferName]:

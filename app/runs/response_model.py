@@ -10,10 +10,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.analysis.linear import ForceLoop, linear_rig
+from app.analysis.phasors import Complex
+from app.analysis.response.unit_under_test import servo
 from app.controller.record import to_record
 from app.controller.settings import ControllerSettings
 from app.rig_configuration.record import model_of
-from app.runs.response_schemas import ModelCurve
+from app.runs.response_schemas import ModelCurve, ResponseSeries
+from rtcore.compiled import Array
 
 POINTS = 120
 MOST_KEPT = 64
@@ -26,6 +29,13 @@ class Load(NamedTuple):
     mean_n: float
     from_hz: float
     to_hz: float
+
+
+def loads_of(series: Iterable[ResponseSeries]) -> list[Load]:
+    """Those of series that are more than a point, each once."""
+    many = (one for one in series if len(one.points) > 1)
+    ends = ((s, s.points[0].frequency_hz, s.points[-1].frequency_hz) for s in many)
+    return list(dict.fromkeys(Load(s.amplitude_n, s.mean_n, low, high) for s, low, high in ends))
 
 
 class ModelCurves:
@@ -62,6 +72,16 @@ class ModelCurves:
             return self._kept[key]
 
 
+def position_curve(run: Mapping[str, Any], load: Load) -> ModelCurve | None:
+    """The unit's position response, as its servo of second order has it under any load; None without a model."""
+    try:
+        rig = model_of(run["rig"])
+    except ValueError:
+        return None
+    frequencies_hz = _between(load)
+    return _curve(load, frequencies_hz, servo(rig, frequencies_hz))
+
+
 def model_curve(run: Mapping[str, Any], load: Load, period_s: float) -> ModelCurve | None:
     """Force to setpoint of the rig linearised for a load; None where it cannot be."""
     try:
@@ -69,8 +89,17 @@ def model_curve(run: Mapping[str, Any], load: Load, period_s: float) -> ModelCur
         gains = to_record(ControllerSettings.model_validate(run["controller"]))
     except ValueError:  # a mean that this rig cannot hold, or settings of another version
         return None
-    frequencies_hz = np.geomspace(load.from_hz, load.to_hz, POINTS)
-    response = ForceLoop(rig, gains, period_s).closed_loops(frequencies_hz)
+    frequencies_hz = _between(load)
+    return _curve(
+        load, frequencies_hz, ForceLoop(rig, gains, period_s).closed_loops(frequencies_hz)
+    )
+
+
+def _between(load: Load) -> Array:
+    return np.geomspace(load.from_hz, load.to_hz, POINTS)
+
+
+def _curve(load: Load, frequencies_hz: Array, response: Complex) -> ModelCurve:
     return ModelCurve(
         amplitude_n=load.amplitude_n,
         mean_n=load.mean_n,

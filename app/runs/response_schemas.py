@@ -20,11 +20,13 @@ TransferName = Literal[
 class ResponsePointOut(BaseModel):
     """A point with its 95 % intervals; `gain` in the transfer's unit, `gain_db` of one without a unit.
 
-    Bounds are null where there are none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
+    `amplitude_m` is that of the motion, null where it is the force that was led. Bounds are null where there are
+    none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
     """
 
     frequency_hz: float
     amplitude_n: float
+    amplitude_m: float | None
     mean_n: float
     gain: float
     gain_db: float | None
@@ -58,11 +60,15 @@ class ExtremesOut(BaseModel):
 
 
 class ResponseSeries(BaseModel):
-    """The points of one block, amplitude and mean, by frequency. `amplitude_n` is that which was asked for."""
+    """The points of one block, amplitude and mean, by frequency. `amplitude_n` is that which was asked for.
+
+    Of the position response `block` counts motions, `amplitude_m` is the motion's and `mean_n` the force meanwhile.
+    """
 
     block: int
     method: Method
     amplitude_n: float
+    amplitude_m: float | None
     mean_n: float
     points: list[ResponsePointOut]
     extremes: ExtremesOut

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import cast
 
 from app.analysis.response.extremes import Extreme, find_extremes
-from app.analysis.response.transfers import TRANSFERS, UNIT_TRANSFERS
+from app.analysis.response.transfers import EVERY
 from app.conducting.found import Found
 from app.definitions.responses import FrequencyResponse
 from app.runs.response_schemas import (
@@ -32,6 +32,7 @@ def point_out(found: Found) -> ResponsePointOut:
     return ResponsePointOut(
         frequency_hz=point.frequency_hz,
         amplitude_n=point.amplitude_n,
+        amplitude_m=found.amplitude_m,
         mean_n=point.mean_n,
         gain=point.gain,
         gain_db=20 * math.log10(point.gain) if has_db else None,
@@ -87,6 +88,7 @@ def _series(key: tuple[int, str, float, float], group: Sequence[Found]) -> Respo
         block=block,
         method=ordered[0].method,
         amplitude_n=amplitude_n,
+        amplitude_m=ordered[0].amplitude_m,
         mean_n=mean_n,
         points=[point_out(found) for found in ordered],
         extremes=_extremes(ordered),
@@ -108,7 +110,7 @@ def _extremes(ordered: Sequence[Found]) -> ExtremesOut:
 
 
 def _has_no_unit(transfer: str) -> bool:
-    return (TRANSFERS | UNIT_TRANSFERS)[transfer].unit == NO_UNIT
+    return EVERY[transfer].unit == NO_UNIT
 
 
 def _peak(extreme: Extreme | None) -> PeakOut | None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from threading import Lock
 from typing import Any, Protocol, cast
 
-from app.analysis.response.transfers import TRANSFERS, UNIT_TRANSFERS
+from app.analysis.response.transfers import EVERY
 from app.conducting.found import Found
 from app.conducting.responding import NEEDS, Responding, responds, responses_in
 from app.db import Database
@@ -21,7 +21,7 @@ from app.runs import repository
 from app.runs.measuring import Subject, read_definition, read_rig
 from app.runs.no_data import no_data
 from app.runs.response_file import read_points, write_points
-from app.runs.response_model import Load, ModelCurves
+from app.runs.response_model import ModelCurves, loads_of, position_curve
 from app.runs.response_schemas import (
     ModelCurve,
     ResponseOut,
@@ -33,7 +33,6 @@ from app.runs.response_series import bands_of, series_of
 
 _log = logging.getLogger(__name__)
 MODEL_WAIT_S = 1.0
-EVERY = TRANSFERS | UNIT_TRANSFERS
 
 
 class SoFar(Protocol):
@@ -87,7 +86,7 @@ class Responses:
             unit=EVERY[transfer].unit,
             available=_available(points),
             series=series,
-            model=self._model(run, series) if transfer == "force" else [],
+            model=self._model(run, transfer, series),
             bands=bands_of(run.asked) if transfer == "force" else [],
             progress=self._progress(run_id) if run.under_way else None,
         )
@@ -104,13 +103,16 @@ class Responses:
         points, of, seconds_left = found
         return ResponseProgress(points=points, of=of, seconds_left=seconds_left)
 
-    def _model(self, run: _Run, series: Iterable[ResponseSeries]) -> list[ModelCurve]:
-        loads = {
-            Load(s.amplitude_n, s.mean_n, s.points[0].frequency_hz, s.points[-1].frequency_hz): None
-            for s in series
-            if len(s.points) > 1
-        }
-        return self._models.of(run.made_with, loads, run.subject.period_s, MODEL_WAIT_S)
+    def _model(
+        self, run: _Run, transfer: TransferName, series: Iterable[ResponseSeries]
+    ) -> list[ModelCurve]:
+        loads = loads_of(series)
+        if transfer == "force":
+            return self._models.of(run.made_with, loads, run.subject.period_s, MODEL_WAIT_S)
+        if transfer == "position":
+            curves = (position_curve(run.made_with, load) for load in loads)
+            return [curve for curve in curves if curve is not None]
+        return []
 
     def _kept(self, run_id: int, run: _Run, wait_s: float) -> list[Found] | Computing | Refusal:
         folder = run.subject.folder

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from app.analysis.acceptance import Verdict
+from app.conducting.score import scores_of
 from app.controller.settings import ControllerSettings
 from app.definitions.definition import Definition
 from app.definitions.library import library, library_text
+from app.definitions.limits import RIG
 from app.definitions.outline import outline
 from app.definitions.reading import definition_from, parse_definition
 from app.interlocks.defaults import default_interlocks
@@ -19,6 +21,7 @@ from rtcore.rig.parameters import load_rig
 
 IDS = (
     "flight-spectrum",
+    "frequency-response-adaptive",
     "frequency-response-multisine",
     "frequency-response-stepped-sine",
     "harmonic-2-kn-50-hz",
@@ -29,7 +32,9 @@ IDS = (
     "step-2-kn",
     "sweep-1-100-hz",
     "time-history-gust",
+    "unit-position-response",
 )
+LASTS_AT_MOST_S = dict.fromkeys(IDS, 60.0) | {"identification": 600.0}
 
 
 def _simulated(definition: Definition) -> Simulation:
@@ -50,7 +55,11 @@ def test_the_library_holds_the_paper_s_tests_and_one_of_each_kind() -> None:
     assert tuple(library()) == IDS
     for test_id, definition in library().items():
         assert parse_definition(library_text(test_id)) == definition
-        assert 1 < outline(definition).duration_s < (600 if test_id == "identification" else 60)
+        longest_s = outline(definition).duration_s
+        if not scores_of(
+            definition
+        ):  # what adapts is told at its longest, and how long it is below
+            assert 1 < longest_s < LASTS_AT_MOST_S[test_id]
     with pytest.raises(KeyError):
         library_text("../__init__")
 
@@ -60,6 +69,7 @@ def test_every_library_test_passes_on_the_shipped_rig(test_id: str) -> None:
     simulation = _simulated(library()[test_id])
     assert simulation.run.ending.outcome is Outcome.COMPLETED, simulation.run.ending.reason
     assert simulation.judged.verdict is Verdict.PASS, simulation.judged.criteria
+    assert 1 < len(simulation.run.records) * RIG.period_s < LASTS_AT_MOST_S[test_id]
 
 
 def test_the_unit_moves_by_two_millimetres_while_the_load_is_on() -> None:

@@ -6,6 +6,7 @@ detect distortion, the mean over the periods and the covariance of the channels 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,8 @@ class Realisation:
 class Periods:
     """Takes the ticks of a realisation, in which periods follow one another; gives what they amount to.
 
-    A period in which ticks are missing is left out, and so are the first `settle`.
+    A period in which ticks are missing, or within which the program was held, is left out, and so are the
+    `settle` after it and the first `settle`.
     """
 
     def __init__(
@@ -45,7 +47,9 @@ class Periods:
         self._lines = np.asarray(lines, np.int64)
         self._period = np.zeros((len(self._channels), period_ticks))
         self._settle = settle
+        self._counts_from = settle  # the number of the first period that counts
         self._first: int | None = None
+        self._next: tuple[int, int] | None = None  # position and tick that go on from the last
         self._filled = 0
         self._number = 0  # of the period that is being filled
         self._count = 0
@@ -55,22 +59,20 @@ class Periods:
     def take(
         self, positions: npt.NDArray[np.int64], columns: Mapping[str, npt.NDArray[Any]]
     ) -> None:
-        """The next ticks, (n,), with their positions in the program."""
-        if self._first is None and len(positions) > 0:
+        """The next ticks, (n,), with their positions in the program; held where their `tick` jumps."""
+        if len(positions) == 0:
+            return
+        if self._first is None:
             self._first = int(positions[0])
-        size, done = self._period.shape[1], 0
-        while done < len(positions):
-            at = int(positions[done]) - (self._first or 0)
-            number, within = divmod(at, size)
-            high = int(np.searchsorted(positions, positions[done] - within + size))
-            if number != self._number:
-                self._number, self._filled = number, 0
-            for row, name in zip(self._period, self._channels, strict=True):
-                row[positions[done:high] - positions[done] + within] = columns[name][done:high]
-            self._filled += high - done
-            done = high
-            if self._filled == size:
-                self._add()
+        ticks = columns.get("tick", positions)
+        breaks = (np.diff(positions) != 1) | (np.diff(ticks) != 1)
+        edges = [0, *(np.flatnonzero(breaks) + 1).tolist(), len(positions)]
+        for low, high in pairwise(edges):
+            if self._next not in (None, (int(positions[low]), int(ticks[low]))):
+                self._interrupt(int(positions[low]) - self._first)
+            inner = {name: columns[name][low:high] for name in self._channels}
+            self._follow(int(positions[low]) - self._first, high - low, inner)
+            self._next = int(positions[high - 1]) + 1, int(ticks[high - 1]) + 1
 
     def realisation(self) -> Realisation | None:
         """What there is so far; None before the first whole period."""
@@ -79,10 +81,29 @@ class Periods:
         noise = self._scatter / max(1, self._count - 1)
         return Realisation(self._channels, self._lines, self._mean.T.copy(), noise, self._count)
 
+    def _interrupt(self, at: int) -> None:
+        """Something is missing before a tick, or the program was held there."""
+        size = self._period.shape[1]
+        begun = -(-at // size)  # the first period of which all is still to come
+        self._counts_from, self._filled = begun + self._settle, 0
+
+    def _follow(self, at: int, ticks: int, columns: Mapping[str, npt.NDArray[Any]]) -> None:
+        """Ticks without a gap, the first so many after the realisation began."""
+        size, done = self._period.shape[1], 0
+        while done < ticks:
+            self._number, within = divmod(at + done, size)
+            more = min(ticks - done, size - within)
+            for row, name in zip(self._period, self._channels, strict=True):
+                row[within : within + more] = columns[name][done : done + more]
+            self._filled = more if within == 0 else self._filled + more
+            done += more
+            if self._filled == size:
+                self._add()
+
     def _add(self) -> None:
         """Count a period that is whole; Welford's sums."""
         self._filled = 0
-        if self._number < self._settle:
+        if self._number < self._counts_from:
             return
         size = self._period.shape[1]
         found = np.fft.rfft(self._period)[:, self._lines].T * (2 / size)

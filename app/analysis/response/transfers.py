@@ -27,6 +27,8 @@ _TABLE = (
         "Force to rod velocity: what a motion does to the force",
     ),
     Transfer("compliance", "force_n", "displacement_m", "m/N", "Displacement of the unit to force"),
+)
+_OF_MOTION = (
     Transfer(
         "position",
         "displacement_command_m",
@@ -51,6 +53,10 @@ _OF_UNIT = (
         "Admittance of the unit: velocity of its deformation to the force on it",
     ),
 )
+# Along the force's program, of which each sine is known.
 TRANSFERS = {transfer.name: transfer for transfer in _TABLE}
+# Along the program of the motion.
+MOTION_TRANSFERS = {transfer.name: transfer for transfer in _OF_MOTION}
 # What no channel has but a model of the rig makes of them (`app.analysis.response.unit_under_test`).
 UNIT_TRANSFERS = {transfer.name: transfer for transfer in _OF_UNIT}
+EVERY = TRANSFERS | MOTION_TRANSFERS | UNIT_TRANSFERS

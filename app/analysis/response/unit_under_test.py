@@ -5,19 +5,20 @@ mass 1 – mass 2 – unit. From the force in the load cell and the rod's motion
 parts of the chain give the force on the unit and how far it gives way, at each frequency exactly.
 """
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from app.analysis.phasors import Complex
-from app.analysis.response.curve import Curve
 from app.analysis.response.fit import Estimate, Fit
-from app.analysis.response.swept import Samples, swept_response
+from app.analysis.response.periods import Realisation
 from app.analysis.response.transfers import UNIT_TRANSFERS, Transfer
 from rtcore.compiled import Array
 from rtcore.rig.parameters import RigParameters
 
 FORCE, VELOCITY, DISPLACEMENT = "force_n", "velocity_m_s", "displacement_m"
+COMMAND = "displacement_command_m"
 # That the channels which a unit's response needs are among those that are fitted.
 MEASURED = Transfer("", VELOCITY, DISPLACEMENT, "", "")
 
@@ -59,23 +60,22 @@ def unit_weights(rig: RigParameters, frequency_hz: float) -> Complex:
     return np.array([on_unit, mass_2 - moved])
 
 
-def position_response(
-    command_m: Samples, displacement_m: Samples, period_s: float, frequencies_hz: Array
-) -> Curve:
-    """The unit's displacement to its command, (samples,) each, as the unit itself answers.
+def command_as_it_acts(realisation: Realisation, tick_hz: float, period_ticks: int) -> Realisation:
+    """The same realisation with the unit's command as it comes to the unit.
 
-    The command of a tick acts a tick later and is held for one: that is the loop's, and taken off.
+    The command of a tick acts a tick later and is held for one: that is the loop's, and not the unit's own.
     """
-    found = swept_response(command_m, displacement_m, period_s, frequencies_hz)
-    loop = held_a_tick_later(found.frequencies_hz, period_s)
-    scale = np.abs(loop) ** 2
-    return Curve(
-        found.frequencies_hz,
-        found.gain / loop,
-        found.variance / scale,
-        found.lines,
-        found.coherence,
-    )
+    acts = np.ones(realisation.mean.shape, np.complex128)
+    frequencies_hz = realisation.lines * tick_hz / period_ticks
+    acts[realisation.channels.index(COMMAND)] = held_a_tick_later(frequencies_hz, 1 / tick_hz)
+    both = acts.T[:, :, None] * acts.T[:, None, :].conj()
+    return replace(realisation, mean=realisation.mean * acts, noise=realisation.noise * both)
+
+
+def servo(rig: RigParameters, frequencies_hz: Array) -> Complex:
+    """(n,) the model's position response: the unit's servo of second order."""
+    s, w = 2j * np.pi * np.asarray(frequencies_hz), rig.unit.omega_t_rad_s
+    return np.asarray(w**2 / (s**2 + 2 * rig.unit.zeta_t * w * s + w**2))
 
 
 def held_a_tick_later(frequencies_hz: Array, period_s: float) -> Complex:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from app.analysis.response.transfers import TRANSFERS
+from app.analysis.response.transfers import EVERY
 from app.reports.figures.bode import Bode, Corridor, Marked, Response, bode_figure
 from app.reports.numbers import NOTHING, digits, quantity
 from app.reports.report import Column, Figure, Item, Row, Section, Table
@@ -31,7 +31,7 @@ def _moves(found: ResponseOut) -> bool:
 
 
 def _of_transfer(found: ResponseOut) -> Iterator[Item]:
-    doc = TRANSFERS[found.transfer].doc
+    doc = EVERY[found.transfer].doc
     yield Figure(doc, bode_figure(_bode(found)), f"Bode diagram. {doc}")
     if found.unit == "1":
         yield _extremes(found)
@@ -70,6 +70,8 @@ def _model(curve: ModelCurve, *, first: bool) -> Response:
 
 
 def _label(series: ResponseSeries) -> str:
+    if series.amplitude_m is not None:
+        return f"{quantity(series.amplitude_m, 'm')} under {quantity(series.mean_n, 'N')}"
     mean = f" about {quantity(series.mean_n, 'N')}" if series.mean_n else ""
     return f"{quantity(series.amplitude_n, 'N')}{mean}"
 

@@ -5996,9 +5996,12 @@ export interface components {
          * ResponsePointOut
          * @description A point with its 95 % intervals; `gain` in the transfer's unit, `gain_db` of one without a unit.
          *
-         *     Bounds are null where there are none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
+         *     `amplitude_m` is that of the motion, null where it is the force that was led. Bounds are null where there are
+         *     none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
          */
         ResponsePointOut: {
+            /** Amplitude M */
+            amplitude_m: number | null;
             /** Amplitude N */
             amplitude_n: number;
             /** Coherence */
@@ -6047,8 +6050,12 @@ export interface components {
         /**
          * ResponseSeries
          * @description The points of one block, amplitude and mean, by frequency. `amplitude_n` is that which was asked for.
+         *
+         *     Of the position response `block` counts motions, `amplitude_m` is the motion's and `mean_n` the force meanwhile.
          */
         ResponseSeries: {
+            /** Amplitude M */
+            amplitude_m: number | null;
             /** Amplitude N */
             amplitude_n: number;
             /** Block */

@@ -126,6 +126,15 @@ motions = st.one_of(
         taper_cycles=st.sampled_from([0, 1, 2]),
     ),
     _kind(
+        "multisine",
+        amplitude_m=st.sampled_from([1e-5, 2e-4]),
+        mean_m=positions,
+        frequencies_hz=st.sampled_from([[20.0, 50.0, 80.0], [40.0, 100.0]]),
+        settle_cycles=st.integers(0, 1),
+        measure_cycles=st.integers(1, 2),
+        realisations=st.just(2),
+    ),
+    _kind(
         "time_history",
         samples_m=st.lists(positions.map(lambda x: x / 2), min_size=2, max_size=8),
         rate_hz=st.sampled_from([5.0, 12.0]),

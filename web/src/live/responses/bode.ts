@@ -1,7 +1,7 @@
 // A frequency response as the backend tells it, for the chart. Pure.
 
 import type { BodeModel, BodeSeries } from "../../charts/bode";
-import { FORCE, toEntry } from "../../units";
+import { FORCE, LENGTH, toEntry, type Quantity } from "../../units";
 import type { FrequencyResponse, ResponseSeries, TransferName } from "./types";
 
 /** What a person calls a transfer: output to input. */
@@ -17,17 +17,21 @@ export const TRANSFER_NAMES: Readonly<Record<TransferName, { readonly label: str
 };
 
 const METHODS = { stepped_sine: "stepped sine", multisine: "multisine", sweep: "sweep" } as const;
-const force = (newtons: number): string => `${toEntry(FORCE, Number(newtons.toPrecision(3)))}\u00a0${FORCE.symbol}`;
+const say = (quantity: Quantity, value: number): string =>
+  `${toEntry(quantity, Number(value.toPrecision(3)))}\u00a0${quantity.symbol}`;
+const force = (newtons: number): string => say(FORCE, newtons);
 
-/** What tells a series apart from the others: its amplitude, and mean, method and block where they differ. */
+/** What tells a series apart from the others: its amplitude, and mean, method and block where they differ.
+ *  Of a motion its amplitude and the force under which it was. */
 export function seriesLabel(one: ResponseSeries, all: readonly ResponseSeries[]): string {
   const differ = (of: (series: ResponseSeries) => unknown): boolean => new Set(all.map(of)).size > 1;
   const same = all.filter((other) => other.amplitude_n === one.amplitude_n && other.mean_n === one.mean_n);
   return [
-    force(one.amplitude_n),
-    ...(differ(({ mean_n }) => mean_n) ? [`about ${force(one.mean_n)}`] : []),
+    ...(one.amplitude_m === null
+      ? [force(one.amplitude_n), ...(differ(({ mean_n }) => mean_n) ? [`about ${force(one.mean_n)}`] : [])]
+      : [say(LENGTH, one.amplitude_m), `under ${force(one.mean_n)}`]),
     ...(differ(({ method }) => method) ? [METHODS[one.method]] : []),
-    ...(same.length > 1 && !differ(({ method }) => method) ? [`block ${one.block + 1}`] : []),
+    ...(same.length > 1 && !differ(({ method }) => method) ? [`${one.amplitude_m === null ? "block" : "motion"} ${one.block + 1}`] : []),
   ].join(" ");
 }
 

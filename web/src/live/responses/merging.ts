@@ -25,7 +25,8 @@ function belongs({ amplitude_n, mean_n }: ResponseSeries, point: ResponsePoint):
 }
 
 const begun = (block: number, point: ResponsePoint): ResponseSeries => ({
-  ...{ block, method: "stepped_sine", amplitude_n: point.amplitude_n, mean_n: point.mean_n },
+  ...{ block, method: point.amplitude_m === null ? "stepped_sine" : "multisine", amplitude_m: point.amplitude_m },
+  ...{ amplitude_n: point.amplitude_n, mean_n: point.mean_n },
   points: [point],
   extremes: { peak: null, dip: null, minus_3_db_hz: null, minus_90_deg_hz: null },
 });

@@ -4,14 +4,14 @@ import { merged } from "./merging";
 import type { FrequencyResponse, ResponseFrame, ResponsePoint, ResponseSeries } from "./types";
 
 const point = (frequency_hz: number, more: Partial<ResponsePoint> = {}): ResponsePoint => ({
-  ...{ frequency_hz, amplitude_n: 2000, mean_n: 0, gain: 1, gain_db: 0, phase_deg: 0, gain_low: 0.9, gain_high: 1.1 },
+  ...{ frequency_hz, amplitude_n: 2000, amplitude_m: null, mean_n: 0, gain: 1, gain_db: 0, phase_deg: 0, gain_low: 0.9, gain_high: 1.1 },
   ...{ phase_low_deg: -1, phase_high_deg: 1, coherence: 0.99, distortion_percent: null, noise_std: null },
   ...{ nonlinear_std: null, cycles: 10, settled: true },
   ...more,
 });
 const NONE = { peak: null, dip: null, minus_3_db_hz: null, minus_90_deg_hz: null };
 const series = (amplitude_n: number, more: Partial<ResponseSeries> = {}): ResponseSeries => ({
-  ...{ block: 0, method: "stepped_sine", amplitude_n, mean_n: 0, points: [], extremes: NONE },
+  ...{ block: 0, method: "stepped_sine", amplitude_n, amplitude_m: null, mean_n: 0, points: [], extremes: NONE },
   ...more,
 });
 const response = (all: ResponseSeries[]): FrequencyResponse => ({
@@ -62,6 +62,8 @@ describe("series", () => {
     expect(seriesLabel(methods[1]!, methods)).toBe("1\u00a0kN multisine");
     const blocks = [series(1000), series(1000, { block: 4 })];
     expect(seriesLabel(blocks[1]!, blocks)).toBe("1\u00a0kN block 5");
+    const moved = [0, 10_000].map((mean_n) => series(0, { amplitude_m: 0.001, mean_n, method: "multisine" }));
+    expect(seriesLabel(moved[1]!, moved)).toBe("1\u00a0mm under 10\u00a0kN");
   });
   it("carry peak and dip to the chart, and the model its series", () => {
     const peak = { frequency_hz: 35, gain_db: 3.6 };

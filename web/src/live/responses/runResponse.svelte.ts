@@ -51,6 +51,7 @@ export class RunResponse {
       if (signal.aborted) return;
       this.failure = "";
       if (isComputing(answer)) this.computing = answer.share;
+      else if (!answer.available.includes(this.transfer)) return this.show(answer.available[0] ?? "force");
       else [this.data, this.computing] = [answer, null];
     } catch (error) {
       if (signal.aborted) return;
