@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+import numpy as np
 import pytest
 
 from app.definitions.reading import definition_from
@@ -108,6 +109,38 @@ def test_a_multisine_has_its_lines_after_each_period(ready: ConsoleProcess) -> N
     assert series["method"] == "multisine"
     assert [point["frequency_hz"] for point in series["points"]] == [10, 20, 30, 40, 50]
     assert all(point["noise_std"] < 0.1 for point in series["points"])
+
+
+def test_a_multisine_of_the_motion_has_the_units_position_response(ready: ConsoleProcess) -> None:
+    hold = {"kind": "hold", "force_n": 3000, "duration_s": 4.5}
+    lines = [4.0, 8.0, 12.0, 16.0, 24.0]
+    motion = {"kind": "multisine", "amplitude_m": 0.0008, "frequencies_hz": lines}
+    definition = _definition(hold) | {"motion": [motion | {"realisations": 3}]}
+    answer = ready.http.post("/tests", json={"definition": definition})
+    assert answer.status_code == 201, answer.text
+    with listening(ready) as stream:
+        run_id = ready.start_run(str(answer.json()["id"]))
+        told = next(messages(stream, "response"))
+        assert (told["transfer"], told["point"]["amplitude_m"]) == ("position", 0.0008)
+        assert told["point"]["mean_n"] == 3000
+    assert ready.ended_run(run_id)["outcome"] == "completed"
+    found = _response(ready, run_id, "position")
+    assert found["available"] == ["position"]
+    assert (found["unit"], found["bands"]) == ("1", [])
+    (series,) = found["series"]
+    assert (series["method"], series["amplitude_m"], series["mean_n"]) == (
+        "multisine",
+        0.0008,
+        3000,
+    )
+    assert [point["frequency_hz"] for point in series["points"]] == lines
+    assert all(0 <= point["nonlinear_std"] < 1e-3 for point in series["points"])
+    assert series["extremes"]["minus_90_deg_hz"] == pytest.approx(12, rel=0.01)
+    (model,) = found["model"]
+    for point in series["points"]:
+        gain = np.interp(point["frequency_hz"], model["frequencies_hz"], model["gain"])
+        assert point["gain"] == pytest.approx(gain, rel=0.005)
+        assert point["gain_low"] < point["gain"] < point["gain_high"]
 
 
 def test_a_run_without_a_frequency_response_has_none(ready: ConsoleProcess) -> None:
