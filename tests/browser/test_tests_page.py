@@ -4,6 +4,7 @@ import re
 from typing import Any
 
 import pytest
+import yaml
 from playwright.sync_api import Page, expect
 
 from tests.console_process import ConsoleProcess
@@ -19,6 +20,7 @@ name: With a comment
 blocks:
   - {kind: hold, duration_s: 1} # where it is
 """
+WITHOUT_FIELD = (".kind", ".until")  # the one is the block itself, the other has one value only
 PASTE = """(text) => {
     const data = new DataTransfer();
     data.setData("text/plain", text);
@@ -82,6 +84,51 @@ def test_a_test_is_written_by_form_and_its_peak_is_seen(
         (1500, 3000, 100),
         (-2000, 4000, 20),
     ]
+
+
+def keys_of(value: Any, path: str) -> list[str]:
+    """The path of every figure and word of a definition, as the form names its fields."""
+    if isinstance(value, dict):
+        return [found for name, item in value.items() for found in keys_of(item, f"{path}.{name}")]
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        return [found for i, item in enumerate(value) for found in keys_of(item, f"{path}[{i}]")]
+    return [path]
+
+
+def test_a_frequency_response_that_adapts_is_edited_by_form(
+    page: Page, console: ConsoleProcess
+) -> None:
+    library = yaml.safe_load(console.http.get("/tests/frequency-response-adaptive").json()["yaml"])
+    page.goto(f"{console.url}/#/tests/frequency-response-adaptive")
+    row(page, "blocks[0]").click()
+    shown = [
+        at for at in keys_of(library["blocks"][0], "blocks[0]") if not at.endswith(WITHOUT_FIELD)
+    ]
+    assert len(shown) > 20
+    for path in shown:
+        expect(key(page, path), path).to_be_visible()
+
+    key(page, "blocks[0].confidence.gain_db").fill("0,03")
+    key(page, "blocks[0].auto_level").uncheck()
+    key(page, "blocks[0].means_n").fill("0 2,5")
+    page.get_by_test_id("add-band").click()
+    key(page, "blocks[0].bands[2].to_hz").fill("30")  # it begins above that
+    expect(page.get_by_test_id("bands")).to_contain_text("must be above from_hz")
+    key(page, "blocks[0].bands[2].from_hz").fill("20")
+    expect(page.get_by_test_id("yaml")).to_have_value(re.compile("from_hz: 20, to_hz: 30"))
+    page.get_by_test_id("comment").fill("surer")
+    page.get_by_test_id("save").click()
+    expect(page.get_by_test_id("revision")).to_have_text("Revision 2")
+    kept = console.http.get("/tests/frequency-response-adaptive").json()["definition"]["blocks"][0]
+    assert kept["confidence"] == {"gain_db": 0.03, "phase_deg": 0.5}
+    assert ("auto_level" in kept, kept["means_n"]) == (False, [0, 2500])
+    assert [band["to_hz"] for band in kept["bands"]] == [40, 100, 30]
+    assert kept["settle"]["at_most_cycles"] == 20
+
+    key(page, "blocks[0].method").select_option("multisine")
+    expect(key(page, "blocks[0].realisations")).to_be_visible()
+    expect(key(page, "blocks[0].confidence")).to_have_count(0)
+    expect(page.get_by_test_id("yaml")).not_to_have_value(re.compile("confidence"))
 
 
 def test_what_is_wrong_is_said_at_the_field_and_at_the_line(

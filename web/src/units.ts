@@ -21,6 +21,7 @@ export const TIME: Quantity = { label: "Time", symbol: "s", scale: 1, digits: 2 
 export const FORCE_RATE: Quantity = { label: "Rate", symbol: "kN/s", scale: 1e-3, digits: 1 };
 export const FREQUENCY: Quantity = { label: "Frequency", symbol: "Hz", scale: 1, digits: 1 };
 export const ANGLE: Quantity = { label: "Phase", symbol: "°", scale: 1, digits: 1 };
+export const DECIBEL: Quantity = { label: "", symbol: "dB", scale: 1, digits: 2 };
 export const PERCENT: Quantity = { label: "", symbol: "%", scale: 1, digits: 1 };
 export const OCTAVES: Quantity = { label: "Sweep rate", symbol: "oct/s", scale: 1, digits: 2 };
 export const PLAIN: Quantity = { label: "", symbol: "", scale: 1, digits: 2 };

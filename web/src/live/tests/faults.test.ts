@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { draftIds, dropDraft, keepDraft, keptDraft } from "./drafts";
 import { faultsAt, faultsBeside, faultsByLine, faultsWithin, inFormUnits } from "./faults";
-import { BLOCK_KINDS, keysOf, kindOf, MOTION_KINDS } from "./kinds";
+import { BLOCK_KINDS, itemsFor, keysOf, kindOf, MOTION_KINDS } from "./kinds";
 import type { Fault } from "./types";
 
 const fault = (path: string, line: number | null = null): Fault => ({
@@ -42,12 +42,12 @@ describe("kinds", () => {
         const block = info.make();
         expect(kindOf(block, where)).toBe(info);
         expect(info.summary(block)).not.toMatch(/undefined|NaN|—/);
-        for (const item of info.items) {
+        for (const item of itemsFor(info, block)) {
           if (item.form === "field" && item.field.empty === undefined) expect(block).toHaveProperty(item.field.key);
           if (item.form === "either")
             expect(item.fields.filter((entry) => entry.key in block)).toHaveLength(1);
         }
-        expect(new Set(keysOf(info)).size).toBe(keysOf(info).length);
+        expect(new Set(keysOf(info, block)).size).toBe(keysOf(info, block).length);
       }
     }
   });

@@ -14,6 +14,7 @@ import {
   toEntry,
   type Quantity,
 } from "../../units";
+import { adapts, RESPONSE_ITEMS } from "./responseItems";
 import { NEW_LAYER } from "./spectrum";
 import type { Json } from "./tree";
 
@@ -28,7 +29,12 @@ export interface FieldInfo {
   readonly empty?: string;
 }
 
-export type FormItem =
+export type FormItem = FormPart & {
+  /** Whether it is asked at all of such a block; always without. */
+  readonly when?: (block: Block) => boolean;
+};
+
+type FormPart =
   | { readonly form: "field"; readonly field: FieldInfo }
   /** Exactly one of these; `start` is what it begins with when it is chosen. */
   | { readonly form: "either"; readonly fields: readonly (FieldInfo & { readonly start: number })[] }
@@ -38,10 +44,17 @@ export type FormItem =
       readonly label: string;
       readonly options: readonly string[];
       readonly empty: string;
+      /** Which keys go with each choice, since they are of another. */
+      readonly drops?: Readonly<Record<string, readonly string[]>>;
     }
   | { readonly form: "list"; readonly field: FieldInfo }
   /** A list, or a range from, to and points. */
   | { readonly form: "range"; readonly key: string; readonly label: string }
+  /** A list that may be left out; `of` is the key of only one. */
+  | { readonly form: "means"; readonly key: string; readonly of: string; readonly label: string; readonly quantity: Quantity }
+  /** A key with keys of its own, there or not; `start` is what it begins with. */
+  | { readonly form: "group"; readonly key: string; readonly label: string; readonly start: Block; readonly fields: readonly FieldInfo[] }
+  | { readonly form: "bands"; readonly key: string; readonly label: string }
   | { readonly form: "layers" | "history" };
 
 export interface KindInfo {
@@ -227,20 +240,7 @@ export const BLOCK_KINDS: readonly KindInfo[] = [
   },
   {
     ...{ kind: "frequency_response", label: "Frequency response", does: "Excites for a Bode diagram" },
-    items: [
-      {
-        form: "choice",
-        key: "method",
-        label: "Method",
-        options: ["stepped_sine", "multisine"],
-        empty: "stepped_sine",
-      },
-      { form: "list", field: { key: "amplitudes_n", label: "Amplitudes", quantity: FORCE } },
-      { form: "range", key: "frequencies_hz", label: "Frequencies" },
-      field("mean_n", "Mean", FORCE, { empty: "0" }),
-      field("settle_cycles", "Settle", { ...PLAIN, symbol: "cycles" }, { whole: true, empty: "default" }),
-      field("measure_cycles", "Measure", { ...PLAIN, symbol: "cycles" }, { whole: true, empty: "default" }),
-    ],
+    items: RESPONSE_ITEMS,
     make: () => ({
       kind: "frequency_response",
       method: "stepped_sine",
@@ -250,7 +250,7 @@ export const BLOCK_KINDS: readonly KindInfo[] = [
       measure_cycles: 10,
     }),
     summary: (block) =>
-      `${String(block.method ?? "stepped_sine").replace("_", " ")}, ${count(block.amplitudes_n)} × ${frequenciesOf(block)}`,
+      `${adapts(block) ? "adaptive " : ""}${String(block.method ?? "stepped_sine").replace("_", " ")}, ${count(block.amplitudes_n) * Math.max(1, count(block.means_n))} × ${frequenciesOf(block)}`,
   },
   historyKind("samples_n"),
   {
@@ -296,9 +296,13 @@ const BY_KIND: Record<"blocks" | "motion", ReadonlyMap<string, KindInfo>> = {
 export const kindOf = (block: Block, where: "blocks" | "motion"): KindInfo | null =>
   BY_KIND[where].get(String(block.kind)) ?? null;
 
+/** What a form asks of a block as it is. */
+export const itemsFor = (info: KindInfo, block: Block): readonly FormItem[] =>
+  info.items.filter(({ when }) => when === undefined || when(block));
+
 /** The keys of a kind that have a field of their own. */
-export const keysOf = (info: KindInfo): string[] =>
-  info.items.flatMap((item) => {
+export const keysOf = (info: KindInfo, block: Block): string[] =>
+  itemsFor(info, block).flatMap((item) => {
     if (item.form === "field" || item.form === "list") return [item.field.key];
     if (item.form === "either") return item.fields.map((entry) => entry.key);
     if (item.form === "layers") return ["layers"];
