@@ -72,17 +72,6 @@ def test_it_is_the_servo_s_to_100_hz_with_load_off_and_on() -> None:
         assert np.abs(down) == pytest.approx([np.sqrt(0.5)], rel=5e-3)
 
 
-def test_its_intervals_hold_the_transducer_s_steps_too() -> None:
-    definition = library()["unit-position-response"]
-    found = positions(definition, played(definition).records)
-    true = np.abs(servo(UNIT, np.array([f.point.frequency_hz for f in found])))
-    held = [
-        f.point.gain_95.low <= g <= f.point.gain_95.high for f, g in zip(found, true, strict=True)
-    ]
-    assert np.mean(held) >= 0.9
-    assert all(f.point.gain_95.high > f.point.gain_95.low for f in found)
-
-
 def test_the_period_of_a_hold_is_left_out_and_settled_again_after_it() -> None:
     definition = moved(RAMP, HOLD)
     virtual = ready_rig(UNIT)
