@@ -52,11 +52,11 @@ describe("refusal", () => {
   });
 
   it("wants command once nothing else is in the way, and for Stop never", () => {
-    const outside: Intent = { ...with_(null), notInCommand: "Take control first: C" };
-    expect(refusal("reset", status("tripped"), FRESH, outside)).toBe("Take control first: C");
+    const outside: Intent = { ...with_(null), notInCommand: "Take command first: C" };
+    expect(refusal("reset", status("tripped"), FRESH, outside)).toBe("Take command first: C");
     expect(refusal("hold", status("off", { hold: "Nothing is running" }), FRESH, outside)).toBe("Nothing is running");
     expect(refusal("stop", status("running"), FRESH, outside)).toBeNull();
-    expect(guidance(status("tripped"), FRESH, outside)).toBe("Take control first: C");
+    expect(guidance(status("tripped"), FRESH, outside)).toBe("Take command first: C");
     expect(nextCommand(status("tripped"), FRESH, outside)).toBeNull();
   });
 

@@ -16,7 +16,7 @@ describe("followRequest", () => {
   });
 
   it("needs no answer once nobody is in command", () => {
-    expect(followRequest({ id: 3, seen: true }, null).word).toContain("Take control with C");
+    expect(followRequest({ id: 3, seen: true }, null).word).toContain("Take command with C");
     expect(followRequest(null, null)).toEqual({ asking: null });
   });
 });

@@ -17,7 +17,7 @@ export function followRequest(
   lease: Lease | null,
 ): { readonly asking: Asking | null; readonly word?: string } {
   if (asking === null) return { asking };
-  if (lease === null) return { asking: null, word: "Nobody is in command now. Take control with C." };
+  if (lease === null) return { asking: null, word: "Nobody is in command now. Take command with C." };
   if (lease.requests.some(({ id }) => id === asking.id))
     return { asking: asking.seen ? asking : { ...asking, seen: true } };
   return asking.seen ? { asking: null, word: `${lease.holder} keeps control for now.` } : { asking };

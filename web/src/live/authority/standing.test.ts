@@ -30,7 +30,7 @@ describe("standingOf", () => {
 describe("notInCommand", () => {
   it("says what would help, and nothing to whoever is in command", () => {
     expect(notInCommand(standingOf(mine, HELD, ME), "operator")).toBeNull();
-    expect(notInCommand(standingOf(null, null, ME), "operator")).toBe("Take control first: C");
+    expect(notInCommand(standingOf(null, null, ME), "operator")).toBe("Take command first: C");
     expect(notInCommand(standingOf(lease(), null, ME), "admin")).toBe("Ann is in command. Ask for command: C");
     expect(notInCommand(standingOf(mine, null, ME), "operator")).toContain("another window");
   });

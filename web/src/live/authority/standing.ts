@@ -33,7 +33,7 @@ export function holderWords(standing: Standing): string {
 export function notInCommand(standing: Standing, role: Role | null): string | null {
   if (!atLeast(role, "operator")) return lacking(role, "operator");
   if (standing.is === "here") return null;
-  if (standing.is === "nobody") return "Take control first: C";
+  if (standing.is === "nobody") return "Take command first: C";
   if (standing.is === "other-window") return "You are in command in another window. Take it here: C";
   return `${standing.lease.holder} is in command. Ask for command: C`;
 }
