@@ -38,7 +38,7 @@ const FIRST: Omit<Compared, "ids"> = {
   window: null,
   hidden: [],
   pane: "measurements",
-  measurement: "amplitude_n",
+  measurement: "peak_force_n", // every run has it
 };
 
 const numbers = (text: string | null): number[] =>

@@ -1,6 +1,6 @@
 // The form of a frequency response: which keys there are with which method. A table, as the contract has it.
 
-import { ANGLE, DECIBEL, FORCE, FREQUENCY, LENGTH, PLAIN, RATIO, type Quantity } from "../../units";
+import { ANGLE, DECIBEL, FORCE, FREQUENCY, LENGTH, PLAIN, type Quantity } from "../../units";
 import type { Block, FieldInfo, FormItem } from "./kinds";
 
 const CYCLES: Quantity = { ...PLAIN, symbol: "cycles" };
@@ -30,9 +30,9 @@ const GROUPS: readonly FormItem[] = [
     ...{ form: "group", key: "auto_level", label: "Lower where the valve has too much to do" },
     start: { valve_at_most: 0.8, least_share: 0.25 },
     fields: [
-      field("valve_at_most", "Valve at most", RATIO, "50"),
+      field("valve_at_most", "Valve at most", { ...PLAIN, symbol: "of full" }, "0.5"),
       field("displacement_at_most_m", "Unit at most", LENGTH, "no limit"),
-      field("least_share", "Not below", { ...RATIO, symbol: "% of it" }, "12.5"),
+      field("least_share", "Not below", { ...PLAIN, symbol: "of it" }, "0.125"),
     ],
     ...STEPPED,
   },
