@@ -85,7 +85,7 @@ export const damageTable = ({ damage }: Analysis): Table => ({
   columns: [column("Asked for, amplitude", FORCE.symbol), column("Applied, amplitude", FORCE.symbol), column("Damage", "×")],
   rows: damage.map((one) => ({
     head: `Exponent ${one.exponent}`,
-    cells: [n(one.asked_amplitude_n), n(one.applied_amplitude_n), one.ratio == null ? NOTHING : one.ratio.toFixed(3)],
+    cells: [figure(FORCE, one.asked_amplitude_n, 1), figure(FORCE, one.applied_amplitude_n, 1), one.ratio == null ? NOTHING : one.ratio.toFixed(3)],
   })),
 });
 
