@@ -47,7 +47,7 @@ def run(request: Request) -> Exit:
     unwritable = _why_not_written(request)
     if unwritable is not None:
         return print_refusal(unwritable, request.as_json)
-    with Asking(request.url, request.token, _say) as console, _interrupted_by_sigterm():
+    with Asking(request.url, request.token, _say) as console, _interrupted_by_signals():
         status = console.reached()
         if isinstance(status, Refusal):
             return print_refusal(status, request.as_json)
@@ -172,10 +172,15 @@ def _say(text: str) -> None:
 
 
 @contextmanager
-def _interrupted_by_sigterm() -> Iterator[None]:
-    """Whoever ends this program, with Ctrl C or without: the load comes off first."""
-    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+def _interrupted_by_signals() -> Iterator[None]:
+    """Whoever ends this program, with Ctrl C or without: the load comes off first.
+
+    A shell has what runs in its background ignore Ctrl C: here it does not.
+    """
+    signals = (signal.SIGINT, signal.SIGTERM)
+    before = [signal.signal(number, signal.default_int_handler) for number in signals]
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in zip(signals, before, strict=True):
+            signal.signal(number, handler)
