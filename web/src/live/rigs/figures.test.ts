@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { si } from "./figures";
+import { si, written } from "./figures";
 
 it.each([
   [0, "0"],
@@ -9,3 +9,9 @@ it.each([
   [0.67574, "0.67574"],
   [58.6004, "58.6"],
 ])("%s is written %s", (value, text) => expect(si(value)).toBe(text));
+
+it("writes values of the configuration with their unit, and a dash where there is none", () => {
+  expect(written(150_000_000, "N/m")).toBe("1.5·10⁸\u00a0N/m");
+  expect(written(0.00085, "m")).toBe("8.5·10⁻⁴\u00a0m");
+  expect([written("A-1", ""), written("", ""), written(null, "N")]).toEqual(["A-1", "—", "—"]);
+});
