@@ -18,7 +18,7 @@ from scipy import signal
 from app.analysis.evidence import Kind, Sine, Stretch
 from app.analysis.response.point import ResponsePoint
 from app.analysis.response.stepped import SteppedSine, channels_of
-from app.analysis.response.transfers import TRANSFERS
+from app.analysis.response.transfers import MOTION_TRANSFERS, TRANSFERS
 from app.analysis.walk import Walk
 from bench.report import Figure, progress, show
 from rtcore.channels import TELEMETRY
@@ -26,6 +26,7 @@ from rtcore.modes import Mode
 
 PERIOD_S = 250e-6
 POINTS, POINT_S, CHUNK_S = 100, 36, 1
+SHOWN = TRANSFERS | MOTION_TRANSFERS
 TIMES_FASTER = 10.0
 SHARE = 0.1  # of the points that the script is timed on
 T = TypeVar("T")
@@ -49,7 +50,7 @@ def an_hour(points: int = POINTS) -> tuple[Columns, Program]:
     for i, hz in enumerate(frequencies):
         at = slice(i * ticks, (i + 1) * ticks)
         phase = 2 * np.pi * hz * PERIOD_S * np.arange(ticks)
-        for k, name in enumerate(channels_of(TRANSFERS.values())):
+        for k, name in enumerate(channels_of(SHOWN.values())):
             lag = 0.1 * k * hz / 10
             noise = rng.normal(0, 5, ticks)
             columns[name][at] = 2000 * np.sin(phase - lag) + 40 * np.sin(2 * phase) + noise
@@ -60,8 +61,8 @@ def an_hour(points: int = POINTS) -> tuple[Columns, Program]:
 
 def ours(columns: Columns, program: Program) -> list[ResponsePoint]:
     """As after a run: chunk after chunk."""
-    walk = Walk(iter(program), PERIOD_S, also=channels_of(TRANSFERS.values()))
-    stepped = SteppedSine(PERIOD_S)
+    walk = Walk(iter(program), PERIOD_S, also=channels_of(SHOWN.values()))
+    stepped = SteppedSine(PERIOD_S, SHOWN)
     step = round(CHUNK_S / PERIOD_S)
     for first in range(0, len(columns["tick"]), step):
         for part in walk.take({name: c[first : first + step] for name, c in columns.items()}):
@@ -72,13 +73,13 @@ def ours(columns: Columns, program: Program) -> list[ResponsePoint]:
 def script(columns: Columns, program: Program) -> dict[str, Any]:
     """As one would write it with scipy.signal and python-control; one `frd` a transfer."""
     rate_hz = 1 / PERIOD_S
-    found: dict[str, list[complex]] = {name: [] for name in TRANSFERS}
+    found: dict[str, list[complex]] = {name: [] for name in SHOWN}
     for stretch in program:
         assert stretch.sine is not None, "each stretch has one"
         hz = stretch.sine.frequency_hz
         at = slice(stretch.first, stretch.last)
         size = round(max(4, 2 * round(hz)) / hz / PERIOD_S)  # whole cycles, about two seconds
-        for name, transfer in TRANSFERS.items():
+        for name, transfer in SHOWN.items():
             u, y = columns[transfer.input][at], columns[transfer.output][at]
             f, crossed = signal.csd(u, y, rate_hz, "hann", size)
             _, power = signal.welch(u, rate_hz, "hann", size)
@@ -95,7 +96,7 @@ def script(columns: Columns, program: Program) -> dict[str, Any]:
 
 def sum_of_all(columns: Columns) -> float:
     """What the memory alone costs: every value of the channels read once."""
-    names = channels_of(TRANSFERS.values())
+    names = channels_of(SHOWN.values())
     return float(sum(float(columns[name].sum(dtype=np.float32)) for name in names))
 
 
@@ -121,7 +122,7 @@ def figures() -> list[Figure]:
     gains = np.abs(frd["force"].frdata[0, 0])
     apart = max(abs(p.gain / gain - 1) for p, gain in zip(force, gains, strict=True))
     return [
-        Figure("hour_s", "an hour analysed, six transfers, intervals", own_s, "s"),
+        Figure("hour_s", f"an hour analysed, {len(SHOWN)} transfers, intervals", own_s, "s"),
         Figure("script_s", "the script of scipy and python-control", script_s, "s"),
         Figure("ratio", "times faster", script_s / own_s, "×", at_least=TIMES_FASTER),
         Figure("read_s", "every value read once and summed up", read_s, "s"),
