@@ -28,6 +28,7 @@ ASKING = [
     "readSpectrum",
     "checkController",
 ]  # POST, but nothing is changed
+PATIENCE_S = 120.0  # a report is made while one waits
 EXAMPLES = 10  # of each operation, beside those at the limits of each parameter
 SOME = settings(max_examples=15, derandomize=True)
 
@@ -65,6 +66,13 @@ CHECKS = [
 ]
 
 
+def asked(case: AnyCase, console: ConsoleProcess) -> Response:
+    """The answer, which is as described."""
+    return case.call_and_validate(
+        base_url=console.url, headers=console.headers, checks=CHECKS, timeout=PATIENCE_S
+    )
+
+
 @pytest.fixture(scope="module")
 def known(console: ConsoleProcess) -> Known:
     """What a path may name: a test, its revision, a run of it, and a table that it took."""
@@ -94,13 +102,11 @@ def test_the_console_describes_what_is_committed(console: ConsoleProcess) -> Non
 
 @reading.parametrize()
 def test_what_is_read(case: AnyCase, console: ConsoleProcess, known: Known) -> None:
-    case.call_and_validate(base_url=console.url, headers=console.headers, checks=CHECKS)
+    asked(case, console)
     if case.path_parameters:
         names = case.path_parameters.keys()
         case.path_parameters = {name: known[name] for name in names}
-        answer = case.call_and_validate(
-            base_url=console.url, headers=console.headers, checks=CHECKS
-        )
+        answer = asked(case, console)
         if answer.status_code == 404:
             assert answer.json()["code"] in ("unknown_revision", "unknown_first_out", NONE_MADE)
 
@@ -124,7 +130,7 @@ def test_the_one_character_that_postgresql_does_not_know(
 
 @asking.parametrize()
 def test_what_is_asked(case: AnyCase, console: ConsoleProcess) -> None:
-    case.call_and_validate(base_url=console.url, headers=console.headers, checks=CHECKS)
+    asked(case, console)
 
 
 @pytest.mark.parametrize("operation", ["checkTest", "previewTest"])
@@ -135,5 +141,5 @@ def test_what_is_asked_of_whole_tests(
 ) -> None:
     found = interface.find_operation_by_id(operation)
     case = found.Case(body={"definition": definition}, media_type="application/json")
-    answer = case.call_and_validate(base_url=console.url, headers=console.headers, checks=CHECKS)
+    answer = asked(case, console)
     assert answer.status_code == 200, answer.text

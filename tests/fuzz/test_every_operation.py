@@ -9,7 +9,7 @@ import schemathesis
 from schemathesis import Case, GenerationMode
 
 from app.access.principal import Role
-from tests.api.test_schema import CHECKS, DOCUMENT
+from tests.api.test_schema import CHECKS, DOCUMENT, PATIENCE_S
 from tests.fuzz.under_way import UnderWay
 
 pytestmark = [pytest.mark.process, pytest.mark.slow]
@@ -68,6 +68,7 @@ def ask(
             session=session,
             headers=under_way.headers(role),
             checks=CHECKS,
+            timeout=PATIENCE_S,
         )
         under_way.asked[role, answer.status_code] += 1
         statuses.add(answer.status_code)
