@@ -1,17 +1,15 @@
 """Work in a process of its own, at a low priority: it holds up neither the console nor the loop."""
 
-import ctypes
 import os
 import signal
 from collections.abc import Callable
-from multiprocessing import get_context
-from multiprocessing.connection import Connection
-from threading import Event
+from multiprocessing import get_context, parent_process
+from multiprocessing.connection import Connection, wait
+from threading import Event, Thread
 from typing import Any, TypeVar
 
 NICENESS = 15
 LOOK_S = 0.1  # how often it is asked whether the work is still wanted
-_DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG, prctl(2)
 
 T = TypeVar("T")
 Report = Callable[[float], None]  # told the share that is done, 0…1
@@ -73,7 +71,15 @@ def _work(connection: Connection, work: Callable[..., Any], arguments: tuple[Any
 
 
 def settle_down() -> None:
-    """Have this process give way to all others, and end with whoever started it."""
-    ctypes.CDLL(None).prctl(_DIES_WITH_PARENT, signal.SIGKILL)
+    """Have this process give way to all others, and end with the process that started it."""
+    Thread(target=_end_with_parent, name="parent", daemon=True).start()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # whoever started it ends it
     os.setpriority(os.PRIO_PROCESS, 0, NICENESS)
+
+
+def _end_with_parent() -> None:
+    """The kernel's own death signal (PR_SET_PDEATHSIG) would come with the end of the starting thread."""
+    parent = parent_process()
+    assert parent is not None, "it was started by multiprocessing"
+    wait([parent.sentinel])
+    os._exit(1)

@@ -1,8 +1,11 @@
 """Long work apart: done, failed, died, given up."""
 
 import os
+import subprocess
+import sys
 import threading
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +14,7 @@ import pytest
 from app.errors import Refusal
 from app.jobs.apart import NICENESS, GivenUp, WorkFailed, run_apart
 from app.jobs.jobs import Job, Jobs, JobState
+from app.jobs.stream import PIECE_BYTES, Stream
 from tests.console_process import wait_for
 from tests.unit.app.jobs import work
 
@@ -63,6 +67,33 @@ def test_what_nobody_wants_leaves_no_process(tmp_path: Path) -> None:
     watcher.join()
     with pytest.raises(ProcessLookupError):
         os.kill(int(began.read_text()), 0)
+
+
+def test_a_stream_outlives_the_thread_that_began_it() -> None:
+    with ThreadPoolExecutor(1) as threads:
+        stream = threads.submit(Stream, work.trickle, 10).result()
+        pieces = iter(stream)
+        first = next(pieces)
+    assert len(first) + sum(map(len, pieces)) == 10 * PIECE_BYTES
+    stream.close()
+
+
+def test_work_ends_with_the_process_that_wanted_it(tmp_path: Path) -> None:
+    began = tmp_path / "began"
+    program = f"from tests.unit.app.jobs import work; work.await_ending(__import__('pathlib').Path({str(began)!r}))"
+    wants = subprocess.Popen([sys.executable, "-c", program])
+    wait_for(lambda: began.exists() and began.read_text(), "the work")
+    wants.kill()
+    wants.wait()
+    wait_for(lambda: not lives(began.read_text()), "the end of the work")
+
+
+def lives(pid: str) -> bool:
+    """Whether a process has not ended; one that nobody has waited for yet has no command line left."""
+    try:
+        return bool(Path(f"/proc/{pid}/cmdline").read_bytes())
+    except OSError:
+        return False
 
 
 def test_a_job_is_known_until_it_has_ended_and_after(jobs: Jobs[Any]) -> None:

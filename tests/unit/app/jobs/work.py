@@ -3,8 +3,10 @@
 import os
 from pathlib import Path
 from time import sleep
+from typing import BinaryIO
 
-from app.jobs.apart import Report
+from app.jobs.apart import Report, run_apart
+from app.jobs.stream import PIECE_BYTES
 
 
 def squares(report: Report, count: int) -> list[int]:
@@ -36,3 +38,15 @@ def endless(report: Report, began: Path) -> None:
     began.write_text(str(os.getpid()))
     while True:
         sleep(0.01)
+
+
+def trickle(out: BinaryIO, pieces: int) -> None:
+    """So many pieces, as slowly as somebody reads them."""
+    for _ in range(pieces):
+        out.write(bytes(PIECE_BYTES))
+        sleep(0.05)
+
+
+def await_ending(began: Path) -> None:
+    """Start endless work, as a console does, and wait for it."""
+    run_apart(endless, began, report=lambda _: None)
