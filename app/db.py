@@ -8,10 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from alembic import command
-from alembic.config import Config
 from sqlalchemy import (
     BigInteger,
     Connection,
@@ -30,6 +28,9 @@ from sqlalchemy.orm import DeclarativeBase, Session, sessionmaker
 from sqlalchemy.types import TypeEngine
 
 from app.settings import Settings
+
+if TYPE_CHECKING:
+    from alembic.config import Config
 
 BUSY_TIMEOUT_MS = 15_000
 NO_NUL = r"^[^\x00]*$"  # PostgreSQL keeps every character but this
@@ -111,17 +112,17 @@ class Database:
 
     def upgrade(self, revision: str = "head") -> None:
         """Bring the tables to the newest revision; an interrupted one has changed nothing."""
-        config = _alembic()
+        from alembic import command  # a third of a second to load, and a worker never migrates
+
         with self._rebuilding() as connection:
-            config.attributes["connection"] = connection
-            command.upgrade(config, revision)
+            command.upgrade(_alembic(connection), revision)
 
     def downgrade(self, revision: str) -> None:
         """Bring the tables back to an older revision."""
-        config = _alembic()
+        from alembic import command
+
         with self._rebuilding() as connection:
-            config.attributes["connection"] = connection
-            command.downgrade(config, revision)
+            command.downgrade(_alembic(connection), revision)
 
     @contextmanager
     def _rebuilding(self) -> Iterator[Connection]:
@@ -169,9 +170,12 @@ def upgrade(data_dir: Path) -> None:
     database.close()
 
 
-def _alembic() -> Config:
+def _alembic(connection: Connection) -> "Config":
+    from alembic.config import Config
+
     config = Config()
     config.set_main_option("script_location", str(migrations_folder()))
+    config.attributes["connection"] = connection
     return config
 
 

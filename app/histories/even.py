@@ -4,7 +4,6 @@ import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from app.documents.units import say
 from app.histories.curve import CHUNK, Values
@@ -45,6 +44,8 @@ def count_at(times: Values, rate_hz: float) -> int:
 
 def resampled(times: Values, values: Values, rate_hz: float) -> Iterator[Values]:
     """Values at an even rate along the monotone curve through them, part after part."""
+    from scipy.interpolate import PchipInterpolator  # half a second to load, and few ask
+
     count = count_at(times, rate_hz)
     for i, j in _stretches(count):
         wanted = np.minimum(times[0] + np.arange(i, j) / rate_hz, times[-1])

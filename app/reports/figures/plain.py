@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, NullLocator
 
 from app.reports.figures.colours import GREY, INK, LIMIT, MEASURED, PALE
 from app.reports.figures.style import SERIES, WIDTH_MM, as_svg, canvas, styled, tell
@@ -103,6 +103,7 @@ def histogram(
                 np.maximum(found[:last], 0.5), edges, baseline=0.5, fill=True, color=MEASURED
             )
             axes.set_yscale("log")
+            axes.yaxis.set_minor_locator(NullLocator())
             axes.yaxis.set_major_formatter(FuncFormatter(lambda n, _: f"{n:,.0f}"))
             axes.set_ylim(bottom=0.5)
             axes.set_title(name, fontsize=7.0, color=INK, loc="left")

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BytesIO
-from typing import Any
+from typing import Any, cast
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -75,9 +75,9 @@ def canvas(height_mm: float, width_mm: float = WIDTH_MM) -> Canvas:
 
 def as_svg(drawn: Canvas) -> bytes:
     """The same bytes for the same drawing."""
-    FigureCanvasSVG(drawn)
-    written = BytesIO()
-    drawn.savefig(written, format="svg", metadata={"Date": None, "Creator": None})
+    written, painter = BytesIO(), cast(Any, FigureCanvasSVG(drawn))
+    # Not `savefig`, which draws everything once more only to ask how large it is.
+    painter.print_svg(written, metadata={"Date": None, "Creator": None})
     return written.getvalue()
 
 
