@@ -42,8 +42,8 @@ class Band:
         self.high = np.full(bins, np.nan)
 
     def take(self, first: int, values: Floats) -> None:
-        """(n,) values from the place `first` on, which begins a bin; NaN where there is none."""
-        begins = np.arange(0, len(values), self._width)
+        """(n,) values from the place `first` on; NaN where there is none."""
+        begins = np.arange(-(first % self._width), len(values), self._width).clip(min=0)
         at = first // self._width + np.arange(len(begins))
         self.low[at] = np.fmin(self.low[at], np.fmin.reduceat(values, begins))
         self.high[at] = np.fmax(self.high[at], np.fmax.reduceat(values, begins))

@@ -35,15 +35,16 @@ def overlay(report: Progress, order: Order) -> OverlayOut | Refusal:
 
 
 def ticks_of(order: Order) -> int:
-    """How many ticks have to be read, of all runs and channels."""
-    seconds = [side_ticks(side) for side in order.sides]
-    return sum(seconds) * len(order.channels)
+    """How many places have to be filled at most, of all runs and channels."""
+    lengths = [side_ticks(side) for side in order.sides]
+    places = sum(lengths) if order.align is Align.BLOCK else max(lengths)
+    return places * len(order.sides) * len(order.channels)
 
 
 def side_ticks(side: Side) -> int:
-    """The ticks of a run on disk."""
+    """From a run's first tick to its last on disk, those that were not recorded among them."""
     samples = open_samples(side.folder)
-    return 0 if samples is None else samples.last_tick - samples.first_tick + 1
+    return 0 if samples is None else samples.last_tick - _begin(side, samples) + 1
 
 
 def _over_time(report: Progress, order: Order, samples: list[Samples]) -> OverlayOut | Refusal:
@@ -55,16 +56,18 @@ def _over_time(report: Progress, order: Order, samples: list[Samples]) -> Overla
             detail = f"Run {side.run_id} has no block {order.block}, or did not get there"
             return Refusal(Code.NO_DATA, f"{detail}: leave it out, or align in time")
         origins.append(origin)
-    ends = [there.last_tick - origin for there, origin in zip(samples, origins, strict=True)]
-    first = round(order.from_s / period_s)
-    last = max(ends) if order.to_s is None else min(max(ends), round(order.to_s / period_s))
+    both = list(zip(samples, origins, strict=True))
+    begin = min(there.first_tick - origin for there, origin in both)
+    end = max(there.last_tick - origin for there, origin in both)
+    first = max(begin, round(order.from_s / period_s))
+    last = end if order.to_s is None else min(end, round(order.to_s / period_s))
     if last < first:
-        return _nothing_there(order, max(ends) * period_s)
+        return _nothing_there(order, begin * period_s, end * period_s)
     places = last - first + 1
     width = bin_width(places, order.points)
     bins = -(-places // width)
     found = {name: _empty(order, bins, width) for name in order.channels}
-    for at, columns in _windows(order, samples, origins, first, places, width):
+    for at, columns in _windows(order, samples, origins, first, places):
         for name, of_channel in found.items():
             _take(of_channel, at, columns[name])
         report(min(1.0, (at + WINDOW_TICKS) / places))
@@ -101,12 +104,11 @@ def _over_a_cycle(report: Progress, order: Order, samples: list[Samples]) -> Ove
 
 
 def _windows(
-    order: Order, samples: list[Samples], origins: list[int], first: int, places: int, width: int
+    order: Order, samples: list[Samples], origins: list[int], first: int, places: int
 ) -> Iterator[tuple[int, dict[str, list[Floats]]]]:
     """The place of each window, and in it each channel of all runs, tick by tick."""
-    length = width * max(1, WINDOW_TICKS // width)
-    for at in range(0, places, length):
-        count = min(length, places - at)
+    for at in range(0, places, WINDOW_TICKS):
+        count = min(WINDOW_TICKS, places - at)
         columns: dict[str, list[Floats]] = {name: [] for name in order.channels}
         for there, origin in zip(samples, origins, strict=True):
             low = origin + first + at
@@ -150,6 +152,10 @@ def _origin(side: Side, samples: Samples, block: int | None) -> int | None:
     return None
 
 
-def _nothing_there(order: Order, end_s: float) -> Refusal:
-    detail = f"Nothing was recorded from {order.from_s:g} s on: the longest of these runs ends at {end_s:.6g} s"
+def _nothing_there(order: Order, begin_s: float, end_s: float) -> Refusal:
+    to = "on" if order.to_s is None else f"to {order.to_s:g} s"
+    detail = (
+        f"Nothing was recorded from {order.from_s:g} s {to}: the first of these runs begins at "
+        f"{begin_s:.6g} s, the last ends at {end_s:.6g} s"
+    )
     return Refusal(Code.NO_DATA, detail)

@@ -90,6 +90,30 @@ def test_of_few_ticks_each_is_told(
     assert difference.exceeded_share == pytest.approx(np.mean(outside), abs=0.01)
 
 
+def test_a_window_is_what_was_recorded_however_much_more_is_asked_for(
+    database: Database, comparisons: Comparisons, tmp_path: Path
+) -> None:
+    runs, records = tmp_path / "runs", played([SINE], 1.0)
+    ids = [enter(database, runs, records, [SINE]) for _ in range(2)]
+    overlay = compare(comparisons, *ids, points=5000).overlay
+    wider = compare(comparisons, *ids, points=5000, from_s=-1e9, to_s=1e9).overlay
+    assert wider.x == overlay.x
+    assert wider.channels == overlay.channels
+    assert "begins at 0 s" in refused(comparisons, *ids, from_s=-1e9, to_s=-1.0).detail
+
+
+def test_a_bin_wider_than_what_is_read_at_once_loses_nothing(
+    database: Database, comparisons: Comparisons, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    runs, records = tmp_path / "runs", played([SINE], 1.0)
+    ids = [enter(database, runs, records, [SINE]) for _ in range(2)]
+    whole = compare(comparisons, *ids, points=200).overlay
+    monkeypatch.setattr("app.comparison.computing.WINDOW_TICKS", 7)
+    again = Comparisons(database, runs)
+    assert compare(again, *ids, points=200).overlay == whole
+    again.close()
+
+
 def test_runs_of_unlike_length_end_each_on_its_own(
     database: Database, comparisons: Comparisons, tmp_path: Path
 ) -> None:
