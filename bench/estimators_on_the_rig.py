@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from app.analysis.evidence import Kind, Sine, Stretch
-from app.analysis.linear import ForceLoop
+from app.analysis.force_loop import ForceLoop
 from app.analysis.response.bla import robust
 from app.analysis.response.periods import Periods
 from app.analysis.response.spectral import Against, spectral_response

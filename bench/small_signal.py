@@ -4,7 +4,8 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from app.analysis.linear import ForceLoop, bypass_conductance
+from app.analysis.force_loop import ForceLoop
+from app.analysis.linear import bypass_conductance
 from app.controller.record import to_record as gains_record
 from app.controller.settings import ControllerSettings
 from bench.recorded import Floats, begin, make_test, quiet_rig, ready_rig, states_of, true_force

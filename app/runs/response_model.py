@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from app.analysis.linear import ForceLoop, linear_rig
+from app.analysis.force_loop import ForceLoop
+from app.analysis.linear import linear_rig
 from app.analysis.phasors import Complex
 from app.analysis.response.unit_under_test import servo
 from app.controller.record import to_record

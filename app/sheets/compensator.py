@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from app.analysis.branch import branch_parts
-from app.analysis.linear import ForceLoop, exact_compensation
+from app.analysis.force_loop import ForceLoop, exact_compensation
 from app.controller.record import to_record
 from app.controller.settings import ControllerSettings
 from app.definitions.limits import RIG

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from app.analysis.linear import Margins
+from app.analysis.response.margins import Margins
 from app.sheets.asked import Band
 from app.sheets.schemas import Curve, LoopExtreme, LoopResponse, MarginsOut
 

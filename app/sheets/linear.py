@@ -4,7 +4,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from app.analysis.linear import Coefficients, ForceLoop, coefficients, linear_rig
+from app.analysis.force_loop import ForceLoop
+from app.analysis.linear import Coefficients, coefficients, linear_rig
 from app.controller.record import to_record
 from app.controller.settings import ControllerSettings
 from app.definitions.limits import RIG

@@ -6,15 +6,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from app.analysis.linear import (
-    ForceLoop,
-    bypass_conductance,
-    coefficients,
-    exact_compensation,
-    frequency_response,
-    linear_rig,
-    valve_conductance,
-)
+from app.analysis.force_loop import ForceLoop, exact_compensation
+from app.analysis.linear import bypass_conductance, coefficients, linear_rig, valve_conductance
 from app.controller.record import to_record
 from app.controller.settings import ControllerSettings
 from rtcore.control.response import quadrature_gains, shift
@@ -110,7 +103,7 @@ def test_the_branch_feeds_back_positively_through_the_lvt() -> None:
 
 def test_an_integrator_leaves_no_error_at_low_frequency() -> None:
     loop = ForceLoop(linear(5e3), GAINS, PERIOD_S)
-    found = frequency_response(loop, np.array([0.01, 0.1]))
+    found = loop.closed_loops(np.array([0.01, 0.1]))
     assert np.abs(found) == pytest.approx(1.0, abs=1e-3)
 
 

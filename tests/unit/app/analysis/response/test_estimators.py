@@ -6,7 +6,8 @@ import numpy.typing as npt
 import pytest
 from scipy import signal
 
-from app.analysis.linear import ForceLoop, linear_rig
+from app.analysis.force_loop import ForceLoop
+from app.analysis.linear import linear_rig
 from app.analysis.response.bla import fast, robust
 from app.analysis.response.extremes import find_extremes
 from app.analysis.response.margins import margins_of, open_loop
