@@ -38,9 +38,8 @@ class MeanCycle:
         self.block = block
         self.sine: Sine | None = None
         self.cycles = 0.0
-        self._counts = np.zeros(BINS)
-        self._phases = np.zeros(BINS)
-        self._sums = {name: np.zeros(BINS) for name in self._channels}
+        self._all = _Gathered()
+        self._of = {name: _Gathered() for name in self._channels}
         self._zero: float | None = (
             None  # of the present stretch: tick at which its setpoint is at its top
         )
@@ -52,23 +51,27 @@ class MeanCycle:
                 self._gather(part)
 
     def at(self, phases: Floats) -> dict[str, Floats] | None:
-        """(n,) each channel at phases, in cycles from the setpoint's top; None where there is no cycle."""
-        counts, turned = self._counts, self._phases
-        there = np.flatnonzero(counts > 0)
+        """(n,) each channel at phases, in cycles from the setpoint's top; None where there is no cycle.
+
+        A channel is NaN at a phase at which it never was a number.
+        """
+        there = np.flatnonzero(self._all.counts > 0)
         if len(there) < LEAST_BINS:
             return None
-        starts = _apart(turned[there] / counts[there])
+        starts = _apart(self._all.sums[there] / self._all.counts[there])
         if len(starts) < LEAST_BINS:
             return None
 
         def gathered(values: Floats) -> Floats:
             return np.add.reduceat(values[there], starts)
 
-        weights = gathered(counts)
-        x = gathered(turned) / weights
-        return {
-            name: _around(x, gathered(sums) / weights, phases) for name, sums in self._sums.items()
-        }
+        x = gathered(self._all.sums) / gathered(self._all.counts)
+        found = {}
+        for name, channel in self._of.items():
+            counts = gathered(channel.counts)
+            y = np.divide(gathered(channel.sums), counts, np.full_like(x, np.nan), where=counts > 0)
+            found[name] = _around(x, y, phases)
+        return found
 
     def _wanted(self, part: Part) -> bool:
         stretch = part.stretch
@@ -92,18 +95,33 @@ class MeanCycle:
         phases = ((ticks - self._zero) * per_tick) % 1.0
         phases -= phases > 1 - 0.5 / BINS  # the last half bin is the first half of the first
         bins = np.minimum(np.floor(phases * BINS + 0.5).astype(np.int64), BINS - 1)
-        self._counts += np.bincount(bins, minlength=BINS)
-        self._phases += np.bincount(bins, phases, minlength=BINS)
-        for name, sums in self._sums.items():
-            sums += np.bincount(bins, part.columns[name][there], minlength=BINS)
+        self._all.take(bins, phases)
+        for name, channel in self._of.items():
+            channel.take(bins, part.columns[name][there])
         self.cycles += len(ticks) * per_tick
+
+
+class _Gathered:
+    """How many numbers there were in each bin, and their sums."""
+
+    def __init__(self) -> None:
+        self.counts = np.zeros(BINS)
+        self.sums = np.zeros(BINS)
+
+    def take(self, bins: npt.NDArray[np.int64], values: npt.NDArray[Any]) -> None:
+        """(n,) values and the bins that they fall into; what is no number is left out."""
+        there = np.isfinite(values)
+        self.counts += np.bincount(bins[there], minlength=BINS)
+        self.sums += np.bincount(bins[there], values[there], minlength=BINS)
 
 
 def _top(ticks: npt.NDArray[Any], command: npt.NDArray[Any], per_tick: float) -> float | None:
     """A tick, perhaps between two, at which the setpoint is at its top; None of less than a cycle."""
-    if (len(ticks) + 0.5) * per_tick < 1:
+    there = np.flatnonzero(np.isfinite(command))
+    if (len(there) + 0.5) * per_tick < 1:
         return None
-    ticks, command = ticks[:MOST_FITTED], command[:MOST_FITTED]
+    there = there[:MOST_FITTED]
+    ticks, command = ticks[there], command[there]
     angles = 2 * np.pi * ((ticks - ticks[0]) * per_tick)
     parts = np.column_stack([np.cos(angles), np.sin(angles), np.ones(len(angles))])
     cosine, sine, _ = np.linalg.lstsq(parts, np.asarray(command, np.float64), rcond=None)[0]
@@ -119,6 +137,11 @@ def _apart(x: Floats) -> npt.NDArray[np.int64]:
 
 
 def _around(x: Floats, y: Floats, phases: Floats) -> Floats:
-    """A smooth periodic curve through (m,) values at ascending phases below 1."""
+    """A smooth periodic curve through (m,) values at ascending phases below 1, NaN where the nearest is."""
+    there = np.isfinite(y)
+    if np.count_nonzero(there) < LEAST_BINS:
+        return np.full(len(phases), np.nan)
+    nearest = np.abs((phases[:, None] - x + 0.5) % 1.0 - 0.5).argmin(axis=1)
+    x, y = x[there], y[there]
     curve = CubicSpline(np.append(x, x[0] + 1), np.append(y, y[0]), bc_type="periodic")
-    return np.asarray(curve(x[0] + (phases - x[0]) % 1.0))
+    return np.where(there[nearest], curve(x[0] + (phases - x[0]) % 1.0), np.nan)
