@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 Floats = npt.NDArray[np.float64]
+Bools = npt.NDArray[np.bool_]
 MOST_INTERVALS = 200  # that are told; all are counted
 
 
@@ -24,9 +25,16 @@ class Tolerance(NamedTuple):
         """(n,) the tolerance at each value of the baseline."""
         return np.maximum(self.absolute, self.relative * np.abs(baseline))
 
+    def at(self, baseline: float) -> float:
+        """The tolerance at one value of the baseline."""
+        return max(self.absolute, self.relative * abs(baseline))
+
 
 class Interval(NamedTuple):
-    """Where a difference exceeds its tolerance, both ends in it, and the largest difference there."""
+    """Where a difference exceeds its tolerance, both ends in it, and the largest difference there.
+
+    NaN where none of its differences is a number.
+    """
 
     first: int
     last: int
@@ -59,14 +67,12 @@ class Exceeding:
         self.count = 0  # of intervals
         self.places = 0  # that exceed
 
-    def take(self, first: int, exceeds: npt.NDArray[np.bool_], by: Floats) -> None:
-        """(n,) whether each place from `first` on exceeds, and its difference."""
+    def take(self, first: int, exceeds: Bools, by: Floats) -> None:
+        """(n,) whether each place from `first` on exceeds, and its difference; NaN where it has none."""
         self.places += int(np.count_nonzero(exceeds))
         edges = np.flatnonzero(np.diff(exceeds.astype(np.int8), prepend=0, append=0))
         for low, high in edges.reshape(-1, 2).tolist():
-            part = by[low:high]
-            peak = float(part[np.argmax(np.abs(part))])
-            self._add(Interval(first + low, first + high - 1, peak))
+            self._add(Interval(first + low, first + high - 1, _largest(by[low:high])))
 
     def close(self) -> None:
         """Nothing comes after."""
@@ -82,7 +88,7 @@ class Exceeding:
             self.close()
             self._open = fresh
             return
-        peak = max(now.peak, fresh.peak, key=abs)
+        peak = _largest(np.array([now.peak, fresh.peak]))
         self._open = Interval(now.first, fresh.last, peak)
 
 
@@ -93,27 +99,33 @@ class Difference:
         self.band = Band(bins, width)
         self.tolerances = np.full(bins, np.nan)  # the least in each bin
         self.exceeding = Exceeding(joined=width)
-        self.count = 0  # of places that both have
-        self.peak, self.peak_at = 0.0, 0
+        self.count = 0  # of places that have a number in both
+        self.one_sided = 0  # places, recorded in both, that have a number in one alone
+        self.peak: float | None = None  # as `peak_at`, None while there is no place to compare
+        self.peak_at: int | None = None
         self._tolerance = tolerance
         self._limits = Band(bins, width)
         self._squares = 0.0
 
-    def take(self, first: int, baseline: Floats, values: Floats) -> None:
-        """(n,) of both from the place `first` on; NaN where there is none."""
-        apart = values - baseline
-        there = np.isfinite(apart)
+    def take(self, first: int, baseline: Floats, values: Floats, recorded: Bools) -> None:
+        """(n,) of both from the place `first` on; NaN where there is none, and whether both were recorded.
+
+        A place that was recorded in both and is a number in one alone exceeds whatever tolerance.
+        """
+        numbers = np.isfinite(baseline), np.isfinite(values)
+        there = numbers[0] & numbers[1]
+        one_sided = recorded & (numbers[0] ^ numbers[1])
+        apart = np.subtract(values, baseline, np.full(len(values), np.nan), where=there)
         self.band.take(first, apart)
-        found = np.where(there, apart, 0.0)
         self.count += int(np.count_nonzero(there))
-        self._squares += float(np.dot(found, found))
-        at = int(np.argmax(np.abs(found))) if len(found) else 0
-        if len(found) and abs(found[at]) > abs(self.peak):
-            self.peak, self.peak_at = float(found[at]), first + at
+        self.one_sided += int(np.count_nonzero(one_sided))
+        self._squares += float(np.sum(apart * apart, where=there))
+        self._find_peak(first, apart)
         if self._tolerance is not None:
             limits = self._tolerance.around(baseline)
             self._limits.take(first, limits)
-            self.exceeding.take(first, np.abs(found) > np.where(there, limits, np.inf), found)
+            over = np.greater(np.abs(apart), limits, np.zeros(len(apart), np.bool_), where=there)
+            self.exceeding.take(first, over | one_sided, apart)
 
     def close(self) -> None:
         """Nothing comes after."""
@@ -125,13 +137,30 @@ class Difference:
         """None where there is no place that both have."""
         return math.sqrt(self._squares / self.count) if self.count else None
 
+    @property
+    def exceeded_share(self) -> float | None:
+        """Of the places that can be judged; None where there is none, or no tolerance."""
+        judged = self.count + self.one_sided
+        return None if self._tolerance is None or not judged else self.exceeding.places / judged
+
+    def _find_peak(self, first: int, apart: Floats) -> None:
+        found = _largest(apart)
+        if np.isfinite(found) and (self.peak is None or abs(found) > abs(self.peak)):
+            self.peak, self.peak_at = found, first + int(np.flatnonzero(apart == found)[0])
+
+
+def _largest(values: Floats) -> float:
+    """The one furthest from zero; NaN where none is a number."""
+    sizes = np.where(np.isfinite(values), np.abs(values), -1.0)
+    return float(values[np.argmax(sizes)]) if len(values) else math.nan
+
 
 def bin_width(places: int, points: int) -> int:
     """Places a bin, so that no more than `points` bins hold them all."""
     return max(1, -(-places // max(1, points)))
 
 
-def put(values: Floats, places: npt.NDArray[Any], fresh: npt.NDArray[Any]) -> None:
+def put(values: npt.NDArray[Any], places: npt.NDArray[Any], fresh: npt.NDArray[Any]) -> None:
     """Put (m,) fresh values into (n,) at their places, those outside left out."""
     inside = (places >= 0) & (places < len(values))
     values[places[inside]] = fresh[inside]

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from app.analysis.mean_cycle import MeanCycle
-from app.analysis.overlay import Band, Difference, Floats, bin_width, put
+from app.analysis.overlay import Band, Bools, Difference, Floats, bin_width, put
 from app.analysis.walk import NEEDED
 from app.comparison.order import Laid, Order, Side
 from app.comparison.schemas import Align, OverlayOut
@@ -67,9 +67,9 @@ def _over_time(report: Progress, order: Order, samples: list[Samples]) -> Overla
     width = bin_width(places, order.points)
     bins = -(-places // width)
     found = {name: _empty(order, bins, width) for name in order.channels}
-    for at, columns in _windows(order, samples, origins, first, places):
+    for at, recorded, columns in _windows(order, samples, origins, first, places):
         for name, of_channel in found.items():
-            _take(of_channel, at, columns[name])
+            _take(of_channel, at, columns[name], recorded)
         report(min(1.0, (at + WINDOW_TICKS) / places))
     x = np.asarray((first + np.arange(bins) * width) * period_s, np.float64)
     offsets = [
@@ -99,26 +99,30 @@ def _over_a_cycle(report: Progress, order: Order, samples: list[Samples]) -> Ove
         report((done + 1) / len(samples))
     made = {name: _empty(order, PHASES, 1) for name in order.channels}
     for name, of_channel in made.items():
-        _take(of_channel, 0, columns[name])
+        _take(of_channel, 0, columns[name], [np.ones(PHASES, np.bool_)] * len(samples))
     return told(order, made, 360 * phases, 360.0 / (PHASES - 1), False, [None] * len(samples))
 
 
 def _windows(
     order: Order, samples: list[Samples], origins: list[int], first: int, places: int
-) -> Iterator[tuple[int, dict[str, list[Floats]]]]:
-    """The place of each window, and in it each channel of all runs, tick by tick."""
+) -> Iterator[tuple[int, list[Bools], dict[str, list[Floats]]]]:
+    """The place of each window, which of its ticks each run has, and each channel of all runs, tick by tick."""
     for at in range(0, places, WINDOW_TICKS):
         count = min(WINDOW_TICKS, places - at)
         columns: dict[str, list[Floats]] = {name: [] for name in order.channels}
+        recorded: list[Bools] = []
         for there, origin in zip(samples, origins, strict=True):
             low = origin + first + at
+            ticks = np.zeros(count, np.bool_)
             window = {name: np.full(count, np.nan) for name in order.channels}
             for chunk in there.chunks(order.channels, low, low + count - 1):
+                put(ticks, chunk["tick"] - low, np.ones(len(chunk["tick"]), np.bool_))
                 for name, values in window.items():
                     put(values, chunk["tick"] - low, chunk[name])
+            recorded.append(ticks)
             for name, values in window.items():
                 columns[name].append(values)
-        yield at, columns
+        yield at, recorded, columns
 
 
 def _empty(order: Order, bins: int, width: int) -> Laid:
@@ -129,12 +133,13 @@ def _empty(order: Order, bins: int, width: int) -> Laid:
     )
 
 
-def _take(found: Laid, at: int, of_runs: list[Floats]) -> None:
-    baseline, *others = of_runs
+def _take(found: Laid, at: int, of_runs: list[Floats], recorded: list[Bools]) -> None:
     for band, values in zip(found.series, of_runs, strict=True):
         band.take(at, values)
-    for difference, values in zip(found.differences, others, strict=True):
-        difference.take(at, baseline, values)
+    baseline, there = of_runs[0], recorded[0]
+    others = zip(found.differences, of_runs[1:], recorded[1:], strict=True)
+    for difference, values, too in others:
+        difference.take(at, baseline, values, there & too)
 
 
 def _begin(side: Side, samples: Samples) -> int:

@@ -43,7 +43,7 @@ def compare_runs(
     """Runs over each other with differences from the first, measurements and settings that differ.
 
     A difference is tolerated up to the larger of `tolerance_abs`, in the channel's unit, and
-    `tolerance_rel` of the baseline's value.
+    `tolerance_rel` of the baseline's value; so are those of measurements, the former in the same unit.
     """
     numbers = granted(_numbers(ids))
     names = tuple(name.strip() for name in channels.split(",") if name.strip())

@@ -50,17 +50,22 @@ class ComparedSeries(BaseModel):
 
 
 class ExceededOut(BaseModel):
-    """From where to where a difference exceeds its tolerance, and the largest difference there."""
+    """From where to where a difference exceeds its tolerance, and the largest difference there.
+
+    `peak` is null where only one of the two runs has numbers.
+    """
 
     first: float
     last: float
-    peak: float
+    peak: float | None
 
 
 class ComparedDifference(BaseModel):
     """A run less the baseline, tick against tick, and then in bins; `tolerance` is the least of each bin.
 
-    `exceeded_share` is of the ticks that both have; null without a tolerance.
+    `compared` counts the places at which both have a number, `one_sided` those that both recorded and that are
+    a number in one alone: these exceed any tolerance. `exceeded_share` is of both kinds; null without a
+    tolerance. What cannot be told as nothing was compared is null.
     """
 
     run_id: int
@@ -68,8 +73,10 @@ class ComparedDifference(BaseModel):
     max: Numbers
     tolerance: Numbers | None
     rms: float | None
-    peak: float
-    peak_at: float
+    peak: float | None
+    peak_at: float | None
+    compared: int
+    one_sided: int
     exceeded_share: float | None
     exceeded: list[ExceededOut]
     exceeded_in_all: int

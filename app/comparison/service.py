@@ -31,6 +31,7 @@ from app.runs.models import Run, RunMeasurement
 from app.runs.no_data import no_data
 from app.runs.samples import known_channels
 from app.runs.verdicts import WHOLE_RUN
+from rtcore.channels import CHANNEL
 
 LEAST_RUNS, MOST_RUNS = 2, 8
 DAY_S = 86_400.0
@@ -74,7 +75,11 @@ class Comparisons:
             baseline_id=asked.ids[0],
             runs=[run.told.model_copy(update={"offset_s": offset}) for run, offset in offsets],
             overlay=laid,
-            measurements=measurement_rows([run.measured for run in runs], asked.tolerance_rel),
+            measurements=measurement_rows(
+                [run.measured for run in runs],
+                asked.tolerance,
+                {CHANNEL[name].unit for name in asked.channels},
+            ),
             settings=settings[:MOST_ROWS],
             settings_in_all=len(settings),
         )

@@ -1,5 +1,6 @@
 """Runs on one axis as they are told."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -71,14 +72,20 @@ def _difference(
         tolerance=_numbers(found.tolerances) if asked else None,
         rms=found.rms,
         peak=found.peak,
-        peak_at=at(found.peak_at),
-        exceeded_share=exceeding.places / found.count if asked and found.count else None,
+        peak_at=None if found.peak_at is None else at(found.peak_at),
+        compared=found.count,
+        one_sided=found.one_sided,
+        exceeded_share=found.exceeded_share,
         exceeded=[
-            ExceededOut(first=at(one.first), last=at(one.last), peak=one.peak)
+            ExceededOut(first=at(one.first), last=at(one.last), peak=_number(one.peak))
             for one in exceeding.intervals
         ],
         exceeded_in_all=exceeding.count,
     )
+
+
+def _number(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def _numbers(values: Floats) -> Numbers:

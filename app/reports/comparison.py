@@ -143,6 +143,8 @@ def _differences(found: RunComparison) -> Table:
         Column("Rms", number=True),
         Column("Largest", number=True),
         Column("At", number=True),
+        Column("Compared", number=True),
+        Column("In one alone", number=True),
     )
     rows = tuple(
         Row(
@@ -151,13 +153,19 @@ def _differences(found: RunComparison) -> Table:
                 str(one.run_id),
                 quantity(one.rms, channel.unit),
                 quantity(one.peak, channel.unit),
-                f"{digits(one.peak_at, 6)} {found.overlay.x_unit}",
+                _place(one.peak_at, found.overlay.x_unit),
+                str(one.compared),
+                str(one.one_sided),
             )
         )
         for channel in found.overlay.channels
         for one in channel.differences
     )
     return Table("Differences from the baseline", columns, rows)
+
+
+def _place(at: float | None, unit: str) -> str:
+    return NOTHING if at is None else f"{digits(at, 6)} {unit}"
 
 
 def _measurements(found: RunComparison) -> Table:

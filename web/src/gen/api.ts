@@ -1218,7 +1218,7 @@ export interface paths {
          * @description Runs over each other with differences from the first, measurements and settings that differ.
          *
          *     A difference is tolerated up to the larger of `tolerance_abs`, in the channel's unit, and
-         *     `tolerance_rel` of the baseline's value.
+         *     `tolerance_rel` of the baseline's value; so are those of measurements, the former in the same unit.
          */
         get: operations["compareRuns"];
         put?: never;
@@ -2929,9 +2929,13 @@ export interface components {
          * ComparedDifference
          * @description A run less the baseline, tick against tick, and then in bins; `tolerance` is the least of each bin.
          *
-         *     `exceeded_share` is of the ticks that both have; null without a tolerance.
+         *     `compared` counts the places at which both have a number, `one_sided` those that both recorded and that are
+         *     a number in one alone: these exceed any tolerance. `exceeded_share` is of both kinds; null without a
+         *     tolerance. What cannot be told as nothing was compared is null.
          */
         ComparedDifference: {
+            /** Compared */
+            compared: number;
             /** Exceeded */
             exceeded: components["schemas"]["ExceededOut"][];
             /** Exceeded In All */
@@ -2942,10 +2946,12 @@ export interface components {
             max: (number | null)[];
             /** Min */
             min: (number | null)[];
+            /** One Sided */
+            one_sided: number;
             /** Peak */
-            peak: number;
+            peak: number | null;
             /** Peak At */
-            peak_at: number;
+            peak_at: number | null;
             /** Rms */
             rms: number | null;
             /** Run Id */
@@ -3781,6 +3787,8 @@ export interface components {
         /**
          * ExceededOut
          * @description From where to where a difference exceeds its tolerance, and the largest difference there.
+         *
+         *     `peak` is null where only one of the two runs has numbers.
          */
         ExceededOut: {
             /** First */
@@ -3788,7 +3796,7 @@ export interface components {
             /** Last */
             last: number;
             /** Peak */
-            peak: number;
+            peak: number | null;
         };
         /**
          * Expectation
@@ -5176,6 +5184,35 @@ export interface components {
             wakeup_latency_p99_s: number | null;
         };
         /**
+         * LoopMargins
+         * @description Of a series of the open loop, between the frequencies that were measured; null where it does not cross.
+         *
+         *     `worst_sensitivity` is the largest 1/|1 + L|; the gain margin is at `turnover_hz`.
+         */
+        LoopMargins: {
+            /** Amplitude N */
+            amplitude_n: number;
+            /** Block */
+            block: number;
+            /** Crossover Hz */
+            crossover_hz: number | null;
+            /** Gain Margin Db */
+            gain_margin_db: number | null;
+            /** Mean N */
+            mean_n: number;
+            /**
+             * Method
+             * @enum {string}
+             */
+            method: "stepped_sine" | "multisine" | "sweep";
+            /** Phase Margin Deg */
+            phase_margin_deg: number | null;
+            /** Turnover Hz */
+            turnover_hz: number | null;
+            /** Worst Sensitivity */
+            worst_sensitivity: number | null;
+        };
+        /**
          * LoopResponse
          * @description A frequency response at the frequencies of its sheet; the phase goes on beyond ±180°.
          */
@@ -5962,7 +5999,7 @@ export interface components {
              * Transfer
              * @enum {string}
              */
-            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance";
+            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance" | "loop";
             /**
              * Type
              * @default response
@@ -5973,12 +6010,19 @@ export interface components {
         /**
          * ResponseOut
          * @description A transfer of a run at all points that there are, the model's beside it, and what was required.
+         *
+         *     `margins` are those of the open loop, of each of its series in turn; of every other transfer there are none.
          */
         ResponseOut: {
             /** Available */
-            available: ("force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance")[];
+            available: ("force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance" | "loop")[];
             /** Bands */
             bands: components["schemas"]["BandOut"][];
+            /**
+             * Margins
+             * @default []
+             */
+            margins: components["schemas"]["LoopMargins"][];
             /** Model */
             model: components["schemas"]["ModelCurve"][];
             progress: components["schemas"]["ResponseProgress"] | null;
@@ -5988,7 +6032,7 @@ export interface components {
              * Transfer
              * @enum {string}
              */
-            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance";
+            transfer: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance" | "loop";
             /** Unit */
             unit: string;
         };
@@ -10844,7 +10888,9 @@ export interface operations {
         parameters: {
             query?: {
                 /** @description from which channel to which */
-                transfer?: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance";
+                transfer?: "force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance" | "loop";
+                /** @description of the open loop: under a load of this frequency */
+                load_hz?: number | null;
                 wait_s?: number;
             };
             header?: never;

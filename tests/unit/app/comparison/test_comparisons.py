@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.analysis.overlay import Tolerance
+from app.comparison.measured import Measured, measurement_rows
 from app.comparison.order import Asked
 from app.comparison.schemas import Align, RunComparison
 from app.comparison.service import Comparisons
@@ -15,6 +17,7 @@ from app.db import Database
 from app.errors import Code, Refusal
 from app.prediction.schemas import Computing
 from app.recording.files import remove_samples
+from app.runs.verdicts import WHOLE_RUN
 from rtcore.rig.parameters import rig_from
 from tests.recorded_runs import SINE, enter, forget_samples, played, with_force
 
@@ -165,6 +168,45 @@ def test_in_phase_the_mean_cycles_of_two_frequencies_lie_on_each_other(
     assert "align in time instead" in refused(comparisons, a, c, align=Align.PHASE).detail
 
 
+def test_in_phase_what_is_no_number_leaves_a_hole_and_no_more(
+    database: Database, comparisons: Comparisons, tmp_path: Path
+) -> None:
+    runs, records = tmp_path / "runs", played([SINE], 1.0)
+    other = records.copy()
+    other["force_n"][::100] = np.nan
+    other["force_command_n"][7::100] = np.nan
+    other["displacement_m"] = np.nan
+    a, b = enter(database, runs, records, [SINE]), enter(database, runs, other, [SINE])
+    names = ("force_n", "displacement_m")
+    force, displacement = compare(
+        comparisons, a, b, channels=names, align=Align.PHASE
+    ).overlay.channels
+    assert force.differences[0].compared > 300
+    assert abs(force.differences[0].peak or 0) < 20.0
+    assert displacement.differences[0].compared == 0
+    assert displacement.differences[0].one_sided == 361
+
+
+def test_what_is_a_number_in_one_run_alone_exceeds_any_tolerance(
+    database: Database, comparisons: Comparisons, tmp_path: Path
+) -> None:
+    runs, records = tmp_path / "runs", played([SINE], 1.0)
+    half, none, short = records.copy(), records.copy(), records[:1000]
+    half["force_n"][1000:1400] = np.nan
+    none["force_n"] = np.nan
+    ids = [enter(database, runs, each, [SINE]) for each in (records, half, none, short)]
+    (channel,) = compare(comparisons, *ids, points=5000, tolerance_abs=1.0).overlay.channels
+    partly, never, shorter = channel.differences
+    count = len(records)
+    assert (partly.compared, partly.one_sided, partly.peak) == (count - 400, 400, 0.0)
+    (exceeded,) = partly.exceeded
+    assert (exceeded.first, exceeded.last, exceeded.peak) == (0.25, 1399 * 250e-6, None)
+    assert partly.exceeded_share == pytest.approx(400 / count)
+    assert (never.compared, never.one_sided, never.exceeded_share) == (0, count, 1.0)
+    assert (never.rms, never.peak, never.peak_at) == (None, None, None)
+    assert (shorter.compared, shorter.one_sided, shorter.exceeded_in_all) == (1000, 0, 0)
+
+
 def test_long_runs_are_compared_apart(
     database: Database, comparisons: Comparisons, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -194,6 +236,24 @@ def test_measurements_and_settings_stand_beside_one_another(
     assert settings["definition", "blocks[0].amplitude_n"] == [2000.0, 2500.0, 2000.0]
     assert settings["rig", "structure.k_pl"] == [1.5e8, 1.5e8, 2e8]
     assert len(settings) == found.settings_in_all == 2
+
+
+def test_a_measurement_is_tolerated_up_to_the_larger_of_both() -> None:
+    values = {"peak_force_n": 0.0, "force_error_rms_n": 10.0, "cycles": 0.0}
+    other = {"peak_force_n": 3.0, "force_error_rms_n": 16.0, "cycles": 0.5}
+    runs = [
+        Measured(i, {(WHOLE_RUN, k): v for k, v in each.items()})
+        for i, each in enumerate((values, other))
+    ]
+
+    def within(absolute: float, relative: float) -> list[bool | None]:
+        rows = measurement_rows(runs, Tolerance(absolute, relative), {"N"})
+        found = {row.name: row.values[1].within for row in rows}
+        return [found[name] for name in values]
+
+    assert within(5.0, 0.1) == [True, False, False]
+    assert within(5.0, 0.7) == [True, True, False]
+    assert within(2.0, 0.0) == [False, False, None]  # no newtons for what is none
 
 
 def test_what_cannot_be_compared_is_refused_with_what_to_do(

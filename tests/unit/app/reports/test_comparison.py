@@ -53,6 +53,8 @@ def compared() -> RunComparison:
         rms=12.0,
         peak=-60.0,
         peak_at=1.0,
+        compared=2,
+        one_sided=0,
         exceeded_share=None,
         exceeded=[],
         exceeded_in_all=0,
