@@ -107,16 +107,25 @@ def compensator(
 def frequency_response(
     run: Annotated[Path, typer.Argument(help="A run's Parquet file.")],
     transfer: Annotated[
-        str, typer.Option(help="force, plant, motion, disturbance, compliance or position.")
-    ] = "force",
+        str | None,
+        typer.Option(
+            help="force, plant, motion, disturbance, compliance, position, stiffness, admittance or loop.",
+            show_default="force, or the first that the run has",
+        ),
+    ] = None,
+    load_hz: Annotated[
+        float | None,
+        typer.Option(min=0.1, max=1999.0, help="Of the open loop: under a load of this frequency."),
+    ] = None,
     json: Json = False,
     csv: Csv = False,
 ) -> None:
-    """Every point that a run measured, with its 95 % intervals, and the extremes (figure 12)."""
-    from app.commands.run_analyses import Printed
-    from app.commands.run_analyses import frequency_response as tell
+    """Every point that a run measured, with its 95 % intervals, and extremes (figure 12) or margins."""
+    from app.commands.printed import Printed
+    from app.commands.run_responses import Asked
+    from app.commands.run_responses import frequency_response as tell
 
-    raise typer.Exit(tell(run, transfer, Printed(json, csv)))
+    raise typer.Exit(tell(run, Asked(transfer, load_hz), Printed(json, csv)))
 
 
 @analyse.command()

@@ -16,8 +16,16 @@ from app.definitions.definition import Definition
 from app.definitions.responses import FrequencyResponse
 from app.recording.samples import Columns, Samples
 from app.run_analysis.schemas import RunAnalysis
+from app.runs.measuring import read_rig
 from app.runs.response_file import read_points
-from app.runs.response_model import loads_of, model_curve, position_curve
+from app.runs.response_loop import (
+    LOOP,
+    available_of,
+    loop_margins,
+    loop_points,
+    without_extremes,
+)
+from app.runs.response_model import Loop, loads_of, model_curve, position_curve
 from app.runs.response_schemas import ModelCurve, ResponseOut, ResponseSeries, TransferName
 from app.runs.response_series import bands_of, series_of
 
@@ -47,7 +55,7 @@ class Found:
         points = None if self.folder is None else read_points(self.folder)
         if points is None:
             points = self._points()
-        return tuple(self._response(name, points, asked) for name in _transfers(points))
+        return tuple(self._response(name, points, asked) for name in available_of(points) if points)
 
     @cached_property
     def analysis(self) -> RunAnalysis:
@@ -55,7 +63,8 @@ class Found:
         return self.analyse()
 
     def _points(self) -> list[Point]:
-        responding = Responding(self.definition, self.period_s, self.first_tick)
+        rig = read_rig(self.rig)
+        responding = Responding(self.definition, self.period_s, self.first_tick, rig)
         for chunk in self._chunks(NEEDS):
             responding.take(chunk)
         return responding.points()
@@ -67,30 +76,28 @@ class Found:
     def _response(
         self, name: TransferName, points: Sequence[Point], asked: Sequence[FrequencyResponse]
     ) -> ResponseOut:
+        if name == LOOP:
+            points = loop_points(points, self.definition, self.controller, self.period_s)
         series = series_of(points, name, asked)
         return ResponseOut(
             transfer=name,
             unit=EVERY[name].unit,
             available=[],
-            series=series,
+            series=without_extremes(series) if name == LOOP else series,
             model=list(self._models(name, series)),
             bands=bands_of(asked) if name == "force" else [],
+            margins=loop_margins(series) if name == LOOP else [],
             progress=None,
         )
 
     def _models(self, name: TransferName, series: Iterable[ResponseSeries]) -> Iterator[ModelCurve]:
         made_with = {"rig": self.rig, "controller": self.controller}
-        for load in loads_of(series) if name in ("force", "position") else ():
+        for load in loads_of(series) if name in ("force", "position", LOOP) else ():
+            loop = Loop() if name == LOOP else None
             curve = (
-                model_curve(made_with, load, self.period_s)
-                if name == "force"
-                else position_curve(made_with, load)
+                position_curve(made_with, load)
+                if name == "position"
+                else model_curve(made_with, load, self.period_s, loop)
             )
             if curve is not None:
                 yield curve
-
-
-def _transfers(points: Iterable[Point]) -> list[TransferName]:
-    there = {found.point.transfer for found in points}
-    names: tuple[TransferName, ...] = ("force", "plant", "disturbance", "compliance", "position")
-    return [name for name in names if name in there]

@@ -32,6 +32,12 @@ class Load(NamedTuple):
     to_hz: float
 
 
+class Loop(NamedTuple):
+    """The open loop: the compensation in it where a load has a frequency."""
+
+    load_hz: float | None = None
+
+
 def loads_of(series: Iterable[ResponseSeries]) -> list[Load]:
     """Those of series that are more than a point, each once."""
     many = (one for one in series if len(one.points) > 1)
@@ -44,15 +50,25 @@ class ModelCurves:
 
     def __init__(self) -> None:
         self._worker = ThreadPoolExecutor(1, "model-curves")
-        self._kept: OrderedDict[tuple[str, Load], Future[ModelCurve | None]] = OrderedDict()
+        self._kept: OrderedDict[tuple[str, Load, Loop | None], Future[ModelCurve | None]] = (
+            OrderedDict()
+        )
         self._lock = Lock()
 
     def of(
-        self, run: Mapping[str, Any], loads: Iterable[Load], period_s: float, wait_s: float
+        self,
+        run: Mapping[str, Any],
+        loads: Iterable[Load],
+        period_s: float,
+        wait_s: float,
+        loop: Loop | None = None,
     ) -> list[ModelCurve]:
-        """The curves of these loads that are there within so long; `run` has its `rig` and `controller`."""
+        """The curves of these loads that are there within so long; `run` has its `rig` and `controller`.
+
+        Those of the open loop where one is named.
+        """
         made_with = json.dumps([run["rig"], run["controller"], period_s], sort_keys=True)
-        futures = [self._future(made_with, load, run, period_s) for load in loads]
+        futures = [self._future(made_with, load, run, period_s, loop) for load in loads]
         done, _ = wait(futures, wait_s)
         found = (future.result() for future in futures if future in done)
         return [curve for curve in found if curve is not None]
@@ -62,12 +78,17 @@ class ModelCurves:
         self._worker.shutdown(cancel_futures=True)
 
     def _future(
-        self, made_with: str, load: Load, run: Mapping[str, Any], period_s: float
+        self,
+        made_with: str,
+        load: Load,
+        run: Mapping[str, Any],
+        period_s: float,
+        loop: Loop | None,
     ) -> "Future[ModelCurve | None]":
-        key = made_with, load
+        key = made_with, load, loop
         with self._lock:
             if key not in self._kept:
-                self._kept[key] = self._worker.submit(model_curve, run, load, period_s)
+                self._kept[key] = self._worker.submit(model_curve, run, load, period_s, loop)
                 while len(self._kept) > MOST_KEPT:
                     self._kept.popitem(last=False)
             return self._kept[key]
@@ -83,17 +104,19 @@ def position_curve(run: Mapping[str, Any], load: Load) -> ModelCurve | None:
     return _curve(load, frequencies_hz, servo(rig, frequencies_hz))
 
 
-def model_curve(run: Mapping[str, Any], load: Load, period_s: float) -> ModelCurve | None:
-    """Force to setpoint of the rig linearised for a load; None where it cannot be."""
+def model_curve(
+    run: Mapping[str, Any], load: Load, period_s: float, loop: Loop | None = None
+) -> ModelCurve | None:
+    """Force to setpoint of the rig linearised for a load, or its open loop; None where it cannot be."""
     try:
         rig = linear_rig(model_of(run["rig"]), load.amplitude_n, load.mean_n)
         gains = to_record(ControllerSettings.model_validate(run["controller"]))
     except ValueError:  # a mean that this rig cannot hold, or settings of another version
         return None
     frequencies_hz = _between(load)
-    return _curve(
-        load, frequencies_hz, ForceLoop(rig, gains, period_s).closed_loops(frequencies_hz)
-    )
+    linear = ForceLoop(rig, gains, period_s, None if loop is None else loop.load_hz)
+    responses = linear.closed_loops if loop is None else linear.open_loops
+    return _curve(load, frequencies_hz, responses(frequencies_hz))
 
 
 def _between(load: Load) -> Array:

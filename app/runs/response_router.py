@@ -23,10 +23,14 @@ def get_frequency_response(
     responses: ResponsesService,
     response: Response,
     transfer: Annotated[TransferName, Query(description="from which channel to which")] = "force",
+    load_hz: Annotated[
+        float | None,
+        Query(gt=0, lt=2000, description="of the open loop: under a load of this frequency"),
+    ] = None,
     wait_s: WaitS = 2.0,
 ) -> ResponseOut | Computing:
     """The points of every frequency response of a run, so far where it is under way, and the model's curve."""
-    found = responses.of(run_id, transfer, wait_s)
+    found = responses.of(run_id, transfer, wait_s, load_hz)
     if isinstance(found, Computing):
         response.status_code = 202
         return found

@@ -14,6 +14,7 @@ TransferName = Literal[
     "position",
     "stiffness",
     "admittance",
+    "loop",
 ]
 
 
@@ -84,6 +85,23 @@ class ModelCurve(BaseModel):
     phase_deg: list[float]
 
 
+class LoopMargins(BaseModel):
+    """Of a series of the open loop, between the frequencies that were measured; null where it does not cross.
+
+    `worst_sensitivity` is the largest 1/|1 + L|; the gain margin is at `turnover_hz`.
+    """
+
+    block: int
+    method: Method
+    amplitude_n: float
+    mean_n: float
+    crossover_hz: float | None
+    phase_margin_deg: float | None
+    gain_margin_db: float | None
+    turnover_hz: float | None
+    worst_sensitivity: float | None
+
+
 class BandOut(BaseModel):
     """A requirement band of the test."""
 
@@ -104,7 +122,10 @@ class ResponseProgress(BaseModel):
 
 
 class ResponseOut(BaseModel):
-    """A transfer of a run at all points that there are, the model's beside it, and what was required."""
+    """A transfer of a run at all points that there are, the model's beside it, and what was required.
+
+    `margins` are those of the open loop, of each of its series in turn; of every other transfer there are none.
+    """
 
     transfer: TransferName
     unit: str
@@ -112,6 +133,7 @@ class ResponseOut(BaseModel):
     series: list[ResponseSeries]
     model: list[ModelCurve]
     bands: list[BandOut]
+    margins: list[LoopMargins] = []
     progress: ResponseProgress | None
 
 

@@ -5,12 +5,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Lock
-from typing import Any, Protocol, cast
+from typing import Any, Protocol
 
 from app.analysis.response.transfers import EVERY
 from app.conducting.found import Found
 from app.conducting.responding import NEEDS, Responding, responds, responses_in
 from app.db import Database
+from app.definitions.definition import Definition
 from app.definitions.responses import FrequencyResponse
 from app.errors import Code, Refusal
 from app.histories.history import Histories
@@ -21,7 +22,14 @@ from app.runs import repository
 from app.runs.measuring import Subject, read_definition, read_rig
 from app.runs.no_data import no_data
 from app.runs.response_file import read_points, write_points
-from app.runs.response_model import ModelCurves, loads_of, position_curve
+from app.runs.response_loop import (
+    LOOP,
+    available_of,
+    loop_margins,
+    loop_points,
+    without_extremes,
+)
+from app.runs.response_model import Loop, ModelCurves, loads_of, position_curve
 from app.runs.response_schemas import (
     ModelCurve,
     ResponseOut,
@@ -50,6 +58,7 @@ class _Run:
     subject: Subject
     under_way: bool
     made_with: dict[str, Any]
+    definition: Definition
     asked: Sequence[FrequencyResponse]
     responds: bool
     no_data: Refusal
@@ -71,23 +80,36 @@ class Responses:
         self._lock = Lock()
 
     def of(
-        self, run_id: int, transfer: TransferName = "force", wait_s: float = 30.0
+        self,
+        run_id: int,
+        transfer: TransferName = "force",
+        wait_s: float = 30.0,
+        load_hz: float | None = None,
     ) -> ResponseOut | Computing | Refusal:
-        """A transfer of a run; how far it is where its points take longer than `wait_s` to be found again."""
+        """A transfer of a run; how far it is where its points take longer than `wait_s` to be found again.
+
+        `load_hz` puts the compensation into the open loop, as it is under a load of that frequency.
+        """
         run = self._run(run_id)
         if isinstance(run, Refusal):
             return run
         points = self._so_far.points(run_id) if run.under_way else self._kept(run_id, run, wait_s)
         if isinstance(points, Computing | Refusal):
             return points
-        series = series_of(points, transfer, run.asked)
+        there = points
+        if transfer == LOOP:
+            controller = run.made_with["controller"]
+            period_s = run.subject.period_s
+            there = loop_points(points, run.definition, controller, period_s, load_hz)
+        series = series_of(there, transfer, run.asked)
         return ResponseOut(
             transfer=transfer,
             unit=EVERY[transfer].unit,
-            available=_available(points),
-            series=series,
-            model=self._model(run, transfer, series),
+            available=available_of(points),
+            series=without_extremes(series) if transfer == LOOP else series,
+            model=self._model(run, transfer, series, load_hz),
             bands=bands_of(run.asked) if transfer == "force" else [],
+            margins=loop_margins(series) if transfer == LOOP else [],
             progress=self._progress(run_id) if run.under_way else None,
         )
 
@@ -104,11 +126,17 @@ class Responses:
         return ResponseProgress(points=points, of=of, seconds_left=seconds_left)
 
     def _model(
-        self, run: _Run, transfer: TransferName, series: Iterable[ResponseSeries]
+        self,
+        run: _Run,
+        transfer: TransferName,
+        series: Iterable[ResponseSeries],
+        load_hz: float | None,
     ) -> list[ModelCurve]:
         loads = loads_of(series)
-        if transfer == "force":
-            return self._models.of(run.made_with, loads, run.subject.period_s, MODEL_WAIT_S)
+        if transfer in ("force", LOOP):
+            loop = Loop(load_hz) if transfer == LOOP else None
+            period_s = run.subject.period_s
+            return self._models.of(run.made_with, loads, period_s, MODEL_WAIT_S, loop)
         if transfer == "position":
             curves = (position_curve(run.made_with, load) for load in loads)
             return [curve for curve in curves if curve is not None]
@@ -167,7 +195,7 @@ class Responses:
         except ValueError as error:
             return Refusal(Code.NO_DATA, f"Run {run_id}: {error}")
         asked = responses_in(definition)
-        return _Run(subject, under_way, made_with, asked, responds(definition), without)
+        return _Run(subject, under_way, made_with, definition, asked, responds(definition), without)
 
 
 def find_points(report: Any, subject: Subject, histories: Histories | None) -> None:
@@ -185,9 +213,3 @@ def find_points(report: Any, subject: Subject, histories: Histories | None) -> N
         if len(chunk["tick"]):
             report((int(chunk["tick"][-1]) - samples.first_tick + 1) / ticks)
     write_points(subject.folder, responding.points())
-
-
-def _available(points: Iterable[Found]) -> list[TransferName]:
-    """Those of which there are points; of none yet, the one that is always asked for."""
-    there = {found.point.transfer for found in points}
-    return [cast(TransferName, name) for name in EVERY if name in there] or ["force"]

@@ -53,10 +53,21 @@ _OF_UNIT = (
         "Admittance of the unit: velocity of its deformation to the force on it",
     ),
 )
+_OF_LOOP = (
+    Transfer(
+        "loop",
+        "force_command_n",
+        "force_n",
+        "1",
+        "Open loop: the measured plant under the run's own controller",
+    ),
+)
 # Along the force's program, of which each sine is known.
 TRANSFERS = {transfer.name: transfer for transfer in _TABLE}
 # Along the program of the motion.
 MOTION_TRANSFERS = {transfer.name: transfer for transfer in _OF_MOTION}
 # What no channel has but a model of the rig makes of them (`app.analysis.response.unit_under_test`).
 UNIT_TRANSFERS = {transfer.name: transfer for transfer in _OF_UNIT}
-EVERY = TRANSFERS | MOTION_TRANSFERS | UNIT_TRANSFERS
+# What the plant's transfers and the run's controller make (`app.runs.response_loop`).
+LOOP_TRANSFERS = {transfer.name: transfer for transfer in _OF_LOOP}
+EVERY = TRANSFERS | MOTION_TRANSFERS | UNIT_TRANSFERS | LOOP_TRANSFERS

@@ -9,7 +9,7 @@ from app.reports.figures.bode import Bode, Corridor, Marked, Response, bode_figu
 from app.reports.numbers import NOTHING, digits, quantity
 from app.reports.report import Column, Figure, Item, Row, Section, Table
 from app.reports.subject import Subject
-from app.runs.response_schemas import ModelCurve, ResponseOut, ResponseSeries
+from app.runs.response_schemas import LoopMargins, ModelCurve, ResponseOut, ResponseSeries
 
 MOST_ROWS = 120
 LEAST_GAIN, STILL = 1e-30, 1e-20
@@ -33,7 +33,9 @@ def _moves(found: ResponseOut) -> bool:
 def _of_transfer(found: ResponseOut) -> Iterator[Item]:
     doc = EVERY[found.transfer].doc
     yield Figure(doc, bode_figure(_bode(found)), f"Bode diagram. {doc}")
-    if found.unit == "1":
+    if found.margins:
+        yield _margins(found)
+    elif found.unit == "1":
         yield _extremes(found)
     if found.transfer == "force":
         yield _points(found)
@@ -97,6 +99,27 @@ def _extremes(found: ResponseOut) -> Table:
         Column("Points", number=True),
     )
     return Table("Extremes", columns, tuple(_extreme(series) for series in found.series))
+
+
+def _margins(found: ResponseOut) -> Table:
+    heads = ("Crossover", "Phase margin", "Gain margin", "at", "Worst sensitivity", "Points")
+    columns = (Column("Amplitude"), *(Column(head, number=True) for head in heads))
+    both = zip(found.series, found.margins, strict=True)
+    return Table(
+        "Margins from the measured loop", columns, tuple(_margin(*series) for series in both)
+    )
+
+
+def _margin(series: ResponseSeries, margins: LoopMargins) -> Row:
+    cells = (
+        quantity(margins.crossover_hz, "Hz"),
+        quantity(margins.phase_margin_deg, "°"),
+        quantity(margins.gain_margin_db, "dB"),
+        quantity(margins.turnover_hz, "Hz"),
+        digits(margins.worst_sensitivity, 3),
+        str(len(series.points)),
+    )
+    return Row((_label(series), *cells))
 
 
 def _extreme(series: ResponseSeries) -> Row:

@@ -1,0 +1,89 @@
+"""`forcerig analyse frequency-response`: every transfer of a run's file, the loop's margins, and what is refused."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import Result
+from typer.testing import CliRunner
+
+from app.cli import cli
+from app.commands.output import Exit
+from bench.recorded import make_test
+from rtcore.rig.parameters import load_rig
+from tests.unit.app.commands.recorded_file import recorded_file
+
+STEPPED = {
+    "kind": "frequency_response",
+    "amplitudes_n": [3000.0],
+    "frequencies_hz": [20.0, 40.0, 60.0],
+    "settle_cycles": 3,
+    "measure_cycles": 6,
+}
+MOTION = {"kind": "multisine", "amplitude_m": 0.0008, "frequencies_hz": [8.0, 12.0, 16.0]}
+
+
+@pytest.fixture(scope="module")
+def of_force(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return recorded_file(tmp_path_factory.mktemp("force") / "run.parquet", make_test([STEPPED]))
+
+
+@pytest.fixture(scope="module")
+def of_motion(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    hold = {"kind": "hold", "force_n": 0, "duration_s": 2.0}
+    test = make_test([hold], [MOTION])
+    return recorded_file(tmp_path_factory.mktemp("motion") / "run.parquet", test)
+
+
+def run(*arguments: object) -> Result:
+    command = ["analyse", "frequency-response", *map(str, arguments)]
+    return CliRunner().invoke(cli, command)
+
+
+def told(*arguments: object) -> Any:
+    result = run(*arguments, "--json")
+    assert result.exit_code == Exit.PASSED, result.output
+    return json.loads(result.stdout)
+
+
+def test_the_units_stiffness_and_admittance_are_told_from_the_file_alone(of_force: Path) -> None:
+    unit = load_rig().unit
+    stiffness = told(of_force, "--transfer", "stiffness")
+    assert stiffness["unit"] == "N/m"
+    assert [p["frequency_hz"] for p in stiffness["points"]] == [20.0, 40.0, 60.0]
+    for point in stiffness["points"]:
+        assert point["gain"] == pytest.approx(unit.k_tra, rel=0.03)
+    assert len(told(of_force, "--transfer", "admittance")["points"]) == 3
+
+
+def test_the_open_loop_is_told_with_its_margins(of_force: Path) -> None:
+    loop = told(of_force, "--transfer", "loop")
+    (margins,) = loop["margins"]
+    assert 40 < margins["crossover_hz"] < 60
+    assert 45 < margins["phase_margin_deg"] < 70
+    assert "phase margin" in run(of_force, "--transfer", "loop").stdout
+    loaded = told(of_force, "--transfer", "loop", "--load-hz", 50)
+    assert loaded["margins"][0]["phase_margin_deg"] != margins["phase_margin_deg"]
+
+
+def test_without_a_name_it_is_the_force_or_what_there_is(of_force: Path, of_motion: Path) -> None:
+    assert told(of_force)["transfer"] == "force"
+    found = told(of_motion)
+    assert found["transfer"] == "position"
+    assert [p["frequency_hz"] for p in found["points"]] == [8.0, 12.0, 16.0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--transfer", "stifness"], "did you mean stiffness"),
+        (["--transfer", "position"], "has no point of the transfer 'position': it has force"),
+        (["--load-hz", "50"], "needs --transfer loop"),
+        (["--json", "--csv"], "leave one of them out"),
+    ],
+)
+def test_what_cannot_be_told_is_refused(of_force: Path, arguments: list[str], said: str) -> None:
+    result = run(of_force, *arguments)
+    assert result.exit_code == Exit.BAD_INPUT
+    assert said in " ".join(result.stderr.split())
