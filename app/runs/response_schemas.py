@@ -133,7 +133,7 @@ class ResponseOut(BaseModel):
     series: list[ResponseSeries]
     model: list[ModelCurve]
     bands: list[BandOut]
-    margins: list[LoopMargins] = []
+    margins: list[LoopMargins]
     progress: ResponseProgress | None
 
 

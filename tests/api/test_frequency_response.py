@@ -86,6 +86,11 @@ def test_it_has_the_models_curve_bands_extremes_and_other_transfers(ready: Conso
         series["points"][0]["gain_db"], abs=1
     )
     assert _response(ready, run_id, "stiffness")["unit"] == "N/m"
+    loop = _response(ready, run_id, "loop")
+    assert "loop" in found["available"]
+    assert loop["margins"][0]["crossover_hz"] == pytest.approx(48, abs=10)
+    assert loop["model"] or wait_for(lambda: _response(ready, run_id, "loop")["model"], "a model")
+    assert found["margins"] == []
     plant = _response(ready, run_id, "plant")
     assert plant["unit"] == "N"
     assert plant["series"][0]["points"][0]["gain_db"] is None

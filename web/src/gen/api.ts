@@ -6018,10 +6018,7 @@ export interface components {
             available: ("force" | "plant" | "motion" | "disturbance" | "compliance" | "position" | "stiffness" | "admittance" | "loop")[];
             /** Bands */
             bands: components["schemas"]["BandOut"][];
-            /**
-             * Margins
-             * @default []
-             */
+            /** Margins */
             margins: components["schemas"]["LoopMargins"][];
             /** Model */
             model: components["schemas"]["ModelCurve"][];

@@ -2,6 +2,7 @@
 
 import type { BodeModel, BodeSeries } from "../../charts/bode";
 import { FORCE, LENGTH, toEntry, type Quantity } from "../../units";
+import { marginMarks } from "./margins";
 import type { FrequencyResponse, ResponseSeries, TransferName } from "./types";
 
 /** What a person calls a transfer: output to input. */
@@ -14,6 +15,7 @@ export const TRANSFER_NAMES: Readonly<Record<TransferName, { readonly label: str
   position: { label: "Position", says: "Displacement of the unit to its command" },
   stiffness: { label: "Stiffness", says: "Dynamic stiffness of the unit: force on it to its deformation" },
   admittance: { label: "Admittance", says: "Velocity of the unit's deformation to the force on it" },
+  loop: { label: "Open loop", says: "Open loop: the measured plant under the run's own controller" },
 };
 
 const METHODS = { stepped_sine: "stepped sine", multisine: "multisine", sweep: "sweep" } as const;
@@ -35,11 +37,13 @@ export function seriesLabel(one: ResponseSeries, all: readonly ResponseSeries[])
   ].join(" ");
 }
 
-export function bodeSeries({ series }: FrequencyResponse): readonly BodeSeries[] {
-  return series.map((one) => ({
+export function bodeSeries({ series, margins }: FrequencyResponse): readonly BodeSeries[] {
+  return series.map((one, i) => ({
     label: seriesLabel(one, series),
     points: one.points,
-    extremes: [one.extremes.peak, one.extremes.dip].filter((extreme) => extreme != null),
+    extremes: [one.extremes.peak, one.extremes.dip, ...(margins[i] ? marginMarks(margins[i]) : [])].filter(
+      (extreme) => extreme != null,
+    ),
   }));
 }
 

@@ -15,7 +15,7 @@ const series = (amplitude_n: number, more: Partial<ResponseSeries> = {}): Respon
   ...more,
 });
 const response = (all: ResponseSeries[]): FrequencyResponse => ({
-  ...{ transfer: "force", unit: "1", available: ["force"], series: all, model: [], bands: [], progress: null },
+  ...{ transfer: "force", unit: "1", available: ["force"], series: all, model: [], bands: [], margins: [], progress: null },
 });
 const frame = (of: ResponsePoint, more: Partial<ResponseFrame> = {}): ResponseFrame => ({
   ...{ type: "response", run: 1, block: 0, transfer: "force", point: of },
@@ -72,5 +72,14 @@ describe("series", () => {
     found.model = [{ amplitude_n: 2000, mean_n: 0, ...curve }];
     expect(bodeSeries(found)[1]!.extremes).toEqual([peak]);
     expect(bodeModels(found)).toEqual([{ ...curve, of: 1 }]);
+  });
+  it("is marked where the margins of an open loop are read off", () => {
+    const of = { block: 0, method: "stepped_sine" as const, amplitude_n: 2000, mean_n: 0, worst_sensitivity: 1.5 };
+    const margins = [{ ...of, crossover_hz: 48, phase_margin_deg: 57, gain_margin_db: 10, turnover_hz: 200 }];
+    const [loop] = bodeSeries({ ...response([series(2000)]), transfer: "loop", margins });
+    expect(loop!.extremes!.map(({ frequency_hz, gain_db }) => [frequency_hz, gain_db])).toEqual([
+      [48, 0],
+      [200, -10],
+    ]);
   });
 });

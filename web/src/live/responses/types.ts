@@ -6,6 +6,7 @@ type Schemas = components["schemas"];
 
 export type FrequencyResponse = Schemas["ResponseOut"];
 export type ResponseSeries = Schemas["ResponseSeries"];
+export type LoopMargins = Schemas["LoopMargins"];
 export type ResponsePoint = Schemas["ResponsePointOut"];
 export type ResponseFrame = Schemas["ResponseFrame"];
 export type TransferName = FrequencyResponse["transfer"];

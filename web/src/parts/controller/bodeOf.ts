@@ -1,8 +1,9 @@
 // Loops and branches as the Bode chart draws them. Pure.
 
-import type { BodeModel, BodePoint, BodeSeries, Extreme } from "../../charts/bode";
-import { frequencyText } from "../../charts/bode";
-import type { CompensatorSheet, LoopResponse, Margins } from "../../live/controller/types";
+import type { BodeModel, BodePoint, BodeSeries } from "../../charts/bode";
+import type { CompensatorSheet, LoopResponse } from "../../live/controller/types";
+
+export { marginMarks } from "../../live/responses/margins";
 
 type Frequencies = readonly (number | null)[];
 
@@ -25,16 +26,6 @@ export function modelOf(frequencies_hz: Frequencies, response: LoopResponse, of:
     gain: points.map(({ gain }) => gain),
     phase_deg: points.map(({ phase_deg }) => phase_deg),
   };
-}
-
-/** Where the margins are read off: at the crossover, and where the phase turns over. */
-export function marginMarks({ crossover_hz, phase_margin_deg, gain_margin_db, turnover_hz }: Margins): Extreme[] {
-  const marks: Extreme[] = [];
-  if (crossover_hz !== null && phase_margin_deg !== null)
-    marks.push({ frequency_hz: crossover_hz, gain_db: 0, text: `${phase_margin_deg.toFixed(0)}° at ${frequencyText(crossover_hz)}` });
-  if (turnover_hz !== null && gain_margin_db !== null)
-    marks.push({ frequency_hz: turnover_hz, gain_db: -gain_margin_db, text: `${gain_margin_db.toFixed(1)}\u00a0dB at ${frequencyText(turnover_hz)}` });
-  return marks;
 }
 
 /** The branch, filter by filter (figure 11). */
