@@ -78,7 +78,7 @@ def dtype_of(name: str) -> npt.DTypeLike:
 
 
 def extract(path: Path, wanted: Wanted) -> Extract | Refusal:
-    """Find what is wanted in a recording's file. Reads its end, no samples."""
+    """Find what is wanted in a recording's file. Reads its end, and which ticks it has at the beginning."""
     try:
         description = read_metadata(path)
         recorded = pq.read_schema(path).names
@@ -94,6 +94,8 @@ def extract(path: Path, wanted: Wanted) -> Extract | Refusal:
     if first > last:
         length_s = (samples.last_tick - origin + 1) * period_s
         return _nothing_there(wanted, length_s)
+    if not any(len(chunk["tick"]) for chunk in samples.chunks((), first, last)):
+        return _gap((first - origin) * period_s, (last - origin) * period_s)
     window = {
         "first_tick": origin,
         "exported_from_s": round((first - origin) * period_s, 9),
@@ -135,4 +137,9 @@ def _unreadable(path: Path, error: Exception) -> Refusal:
 def _nothing_there(wanted: Wanted, length_s: float) -> Refusal:
     to = "its end" if wanted.to_s is None else f"{wanted.to_s:g} s"
     detail = f"Nothing was recorded from {wanted.from_s:g} s to {to}: the run lasted {length_s:g} s"
+    return Refusal(Code.INVALID_REQUEST, detail)
+
+
+def _gap(from_s: float, to_s: float) -> Refusal:
+    detail = f"Nothing was recorded between {from_s:.6g} s and {to_s:.6g} s: choose a longer window"
     return Refusal(Code.INVALID_REQUEST, detail)

@@ -48,6 +48,16 @@ def same(found: npt.NDArray[Any], truth: npt.NDArray[Any]) -> bool:
     return np.array_equal(found, truth, equal_nan=truth.dtype.kind == "f")
 
 
+def test_a_window_in_which_nothing_was_recorded_is_refused(run: Path) -> None:
+    first, last = MISSING
+    inside = Wanted(from_s=first * PERIOD_S, to_s=(last - 1) * PERIOD_S)
+    found = extract(run, inside)
+    assert isinstance(found, Refusal)
+    assert "Nothing was recorded between 7.5 s and 7.52475 s" in found.detail
+    edge = wanted_of(run, Wanted(from_s=first * PERIOD_S, to_s=last * PERIOD_S))
+    assert edge.rows() == 1
+
+
 @pytest.mark.parametrize("name", list(FormatName))
 def test_the_whole_recording_comes_back(name: FormatName, run: Path, tmp_path: Path) -> None:
     told: list[float] = []
