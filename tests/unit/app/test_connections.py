@@ -1,9 +1,10 @@
 """The console's own port: who says nothing, or says it slowly, keeps nobody else from being heard."""
 
+import asyncio
 import socket
 from collections.abc import Iterator
 from contextlib import ExitStack, closing, contextmanager
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -26,10 +27,26 @@ async def answer(scope: Any, receive: Any, send: Any) -> None:
         return
     while (await receive()).get("more_body"):
         pass
+    if scope["path"] == "/endless":
+        return await pour(receive, send)
     await send(
         {"type": "http.response.start", "status": 200, "headers": [(b"content-length", b"2")]}
     )
     await send({"type": "http.response.body", "body": b"{}"})
+
+
+async def pour(receive: Any, send: Any) -> None:
+    """Say something until whoever asked has gone."""
+    poured_out.clear()
+    await send({"type": "http.response.start", "status": 200, "headers": []})
+    gone = asyncio.ensure_future(receive())
+    while not gone.done():
+        await send({"type": "http.response.body", "body": bytes(65_536), "more_body": True})
+        await asyncio.sleep(0)
+    poured_out.set()
+
+
+poured_out = Event()
 
 
 @contextmanager
@@ -98,6 +115,13 @@ def test_a_body_may_take_its_time(port: int, monkeypatch: pytest.MonkeyPatch) ->
         assert is_sent_away(silent)  # so the time is over
         client.sendall(b"b")
         assert client.recv(1000).startswith(b"HTTP/1.1 200")
+
+
+def test_an_answer_that_nobody_reads_is_ended(port: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connections, "STALL_S", 0.2)
+    with closing(connected(port)) as client:
+        client.sendall(ASK.replace(b"/ ", b"/endless "))
+        assert poured_out.wait(PATIENCE_S)
 
 
 def test_of_too_many_who_say_nothing_one_goes(port: int, monkeypatch: pytest.MonkeyPatch) -> None:
