@@ -34,8 +34,8 @@ def of_loops(sheet: LinearSheet) -> Columns:
         "phase_margin_deg": [loop.margins.phase_margin_deg for loop in loops],
         "gain_margin_db": [loop.margins.gain_margin_db for loop in loops],
         "worst_sensitivity": [loop.margins.worst_sensitivity for loop in loops],
-        "peak_db": [loop.peak.gain_db for loop in loops],
-        "peak_hz": [loop.peak.frequency_hz for loop in loops],
+        "peak_db": [loop.peak.gain_db if loop.peak else None for loop in loops],
+        "peak_hz": [loop.peak.frequency_hz if loop.peak else None for loop in loops],
     }
 
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
+from app.analysis.response.extremes import Extreme
 from app.analysis.response.margins import Margins
 from app.sheets.asked import Band
 from app.sheets.schemas import Curve, LoopExtreme, LoopResponse, MarginsOut
@@ -40,11 +41,9 @@ def response(values: Complexes) -> LoopResponse:
     return LoopResponse(gain_db=curve(in_db(values)), phase_deg=curve(phase))
 
 
-def extreme(frequencies_hz: Floats, values: Complexes, place: int) -> LoopExtreme:
-    """The gain at one place."""
-    return LoopExtreme(
-        frequency_hz=float(frequencies_hz[place]), gain_db=float(in_db(values)[place])
-    )
+def extreme(found: Extreme | None) -> LoopExtreme | None:
+    """A peak or a dip, null where there is none."""
+    return found and LoopExtreme(frequency_hz=found.frequency_hz, gain_db=found.gain_db)
 
 
 def margins_out(found: Margins) -> MarginsOut:

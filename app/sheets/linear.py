@@ -2,10 +2,9 @@
 
 from functools import lru_cache
 
-import numpy as np
-
 from app.analysis.force_loop import ForceLoop
 from app.analysis.linear import Coefficients, coefficients, linear_rig
+from app.analysis.response.extremes import find_extremes
 from app.controller.record import to_record
 from app.controller.settings import ControllerSettings
 from app.definitions.limits import RIG
@@ -52,7 +51,7 @@ def _at(
 ) -> LoopAt:
     closed = loop.closed_loops(frequencies_hz)
     of_rig = _coefficients(rig, *load_n)
-    gain = np.abs(closed)
+    seen = find_extremes(frequencies_hz, closed)
     return LoopAt(
         amplitude_n=load_n[0],
         mean_n=load_n[1],
@@ -62,6 +61,6 @@ def _at(
         margins=margins_out(loop.margins()),
         open_loop=response(loop.open_loops(frequencies_hz)),
         closed_loop=response(closed),
-        peak=extreme(frequencies_hz, closed, int(np.argmax(gain))),
-        dip=extreme(frequencies_hz, closed, int(np.argmin(gain))),
+        peak=extreme(seen.peak),
+        dip=extreme(seen.dip),
     )

@@ -32,7 +32,7 @@ class LoopResponse(BaseModel):
 
 
 class LoopExtreme(BaseModel):
-    """Where a gain is greatest or least."""
+    """A peak or a dip within the band of a response."""
 
     frequency_hz: float
     gain_db: float
@@ -49,7 +49,7 @@ class MarginsOut(BaseModel):
 
 
 class LoopAt(BaseModel):
-    """The force loop for a load of one amplitude: eqs (6) to (8), margins, responses."""
+    """The force loop for a load of one amplitude: eqs (6) to (8), margins, responses; null for no peak or dip."""
 
     amplitude_n: float
     mean_n: float
@@ -59,8 +59,8 @@ class LoopAt(BaseModel):
     margins: MarginsOut
     open_loop: LoopResponse
     closed_loop: LoopResponse
-    peak: LoopExtreme
-    dip: LoopExtreme
+    peak: LoopExtreme | None
+    dip: LoopExtreme | None
 
 
 class LinearSheet(BaseModel):

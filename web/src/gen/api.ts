@@ -2868,7 +2868,7 @@ export interface components {
          * @description Every reason to refuse. Programs match on these; sentences may change.
          * @enum {string}
          */
-        Code: "invalid_request" | "not_found" | "method_not_allowed" | "not_signed_in" | "not_allowed" | "two_credentials" | "csrf" | "sign_in_failed" | "wrong_password" | "weak_password" | "too_many_attempts" | "too_many_requests" | "unknown_user" | "user_exists" | "last_admin" | "own_account" | "unknown_token" | "unknown_session" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_first_out" | "unknown_drill" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "invalid_report" | "loop_lost" | "loop_silent" | "wrong_mode" | "lease_needed" | "lease_held" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "interlocks_weakened" | "no_program" | "busy" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
+        Code: "invalid_request" | "not_found" | "method_not_allowed" | "not_signed_in" | "not_allowed" | "two_credentials" | "csrf" | "sign_in_failed" | "wrong_password" | "weak_password" | "too_many_attempts" | "too_many_requests" | "unknown_user" | "user_exists" | "last_admin" | "own_account" | "unknown_token" | "unknown_session" | "foreign_origin" | "unknown_host" | "too_large" | "unknown_test" | "unknown_revision" | "test_exists" | "test_archived" | "revision_needed" | "edit_conflict" | "invalid_history" | "history_exists" | "unknown_run" | "unknown_first_out" | "unknown_drill" | "unknown_channel" | "invalid_test" | "run_under_way" | "no_data" | "invalid_report" | "loop_lost" | "loop_silent" | "wrong_mode" | "lease_needed" | "lease_held" | "stale_lease" | "expired" | "replayed" | "unknown_command" | "cause_present" | "invalid_bank" | "interlocks_weakened" | "no_program" | "busy" | "broke_off" | "no_space" | "prediction_refused" | "prediction_pending" | "override_needed" | "database_unavailable" | "internal";
         /**
          * CommandDone
          * @description The loop has taken the command in this tick.
@@ -5112,13 +5112,13 @@ export interface components {
         };
         /**
          * LoopAt
-         * @description The force loop for a load of one amplitude: eqs (6) to (8), margins, responses.
+         * @description The force loop for a load of one amplitude: eqs (6) to (8), margins, responses; null for no peak or dip.
          */
         LoopAt: {
             /** Amplitude N */
             amplitude_n: number;
             closed_loop: components["schemas"]["LoopResponse"];
-            dip: components["schemas"]["LoopExtreme"];
+            dip: components["schemas"]["LoopExtreme"] | null;
             /** K 1 N */
             k_1_n: number;
             /** K 2 N S M */
@@ -5127,7 +5127,7 @@ export interface components {
             /** Mean N */
             mean_n: number;
             open_loop: components["schemas"]["LoopResponse"];
-            peak: components["schemas"]["LoopExtreme"];
+            peak: components["schemas"]["LoopExtreme"] | null;
             /** Tau S */
             tau_s: number;
         };
@@ -5141,7 +5141,7 @@ export interface components {
         };
         /**
          * LoopExtreme
-         * @description Where a gain is greatest or least.
+         * @description A peak or a dip within the band of a response.
          */
         LoopExtreme: {
             /** Frequency Hz */

@@ -90,10 +90,23 @@ def test_the_table_is_that_of_the_data_sheet() -> None:
 def test_a_mean_takes_damping_away_as_the_data_sheet_says() -> None:
     """2 kN about 20 kN peaked at +5.03 dB with all that is not linear; at the mean of 0 at +2.46."""
     there, about_zero = linear(amplitude_n=[2e3], mean_n=20e3), linear(amplitude_n=[2e3])
-    assert there.loops[0].peak.gain_db == pytest.approx(5.03, abs=0.2)
-    assert about_zero.loops[0].peak.gain_db == pytest.approx(2.46, abs=0.3)
+    for sheet, peak_db, tolerance in ((there, 5.03, 0.2), (about_zero, 2.46, 0.3)):
+        peak = sheet.loops[0].peak
+        assert peak is not None
+        assert peak.gain_db == pytest.approx(peak_db, abs=tolerance)
+    assert there.loops[0].dip is None
     nearly = linear(amplitude_n=[2e3], mean_n=1e-3)
     assert nearly.loops[0].k_1_n == pytest.approx(about_zero.loops[0].k_1_n, rel=1e-3)
+
+
+@pytest.mark.parametrize("to_hz", [110.0, 400.0, 1000.0])
+def test_peak_and_dip_are_the_loops_however_far_it_is_looked(to_hz: float) -> None:
+    """The structure lets nothing through at 317 Hz, -29 dB, and rises by 23 dB to 590 Hz: neither counts."""
+    loop = linear(amplitude_n=[10e3], from_hz=1.0, to_hz=to_hz, points=400).loops[0]
+    assert loop.peak is not None
+    assert loop.dip is not None
+    assert (loop.peak.frequency_hz, loop.dip.frequency_hz) == pytest.approx((35.3, 86.4), abs=0.5)
+    assert (loop.peak.gain_db, loop.dip.gain_db) == pytest.approx((3.74, -1.77), abs=0.01)
 
 
 def test_a_mean_that_the_rig_cannot_hold_is_refused() -> None:

@@ -52,6 +52,33 @@ def test_a_flat_response_has_no_extremes() -> None:
     assert find_extremes([1, 2, 4, 8], [1, 1.0001, 1, 1]) == (None, None, None, None)
 
 
+def _like_the_papers(hz: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    """+3.6 dB at 35 Hz, −2 dB at 85 Hz, rolling off from 200 Hz, nothing let through at 320 Hz, up again."""
+    dented = 3.6 * np.exp(-((np.log2(hz / 35) / 0.6) ** 2)) - 2 * np.exp(
+        -((np.log2(hz / 85) / 0.5) ** 2)
+    )
+    fallen = -10 * np.log10(1 + (hz / 200) ** 8) - 20 * np.exp(-((np.log2(hz / 320) / 0.05) ** 2))
+    again = 31 * np.exp(-((np.log2(hz / 590) / 0.2) ** 2))
+    return np.asarray(10 ** ((dented + fallen + again) / 20))
+
+
+@pytest.mark.parametrize("to_hz", [100, 150, 300, 400, 1000])
+def test_peak_and_dip_are_those_of_the_band_however_far_it_is_measured(to_hz: float) -> None:
+    hz = np.geomspace(1, to_hz, 400)
+    found = find_extremes(hz, _like_the_papers(hz))
+    assert found.peak is not None
+    assert found.dip is not None
+    assert found.peak == pytest.approx((35, 3.6), rel=0.02)
+    assert found.dip == pytest.approx((85, -2.0), rel=0.02)
+
+
+def test_a_dip_below_the_band_s_edge_is_one_where_it_comes_up_again() -> None:
+    hz = np.geomspace(1, 200, 300)
+    found = find_extremes(hz, 10 ** (-12 * np.exp(-((np.log2(hz / 60) / 0.3) ** 2)) / 20))
+    assert found.dip == pytest.approx((60, -12), rel=0.01)
+    assert found.peak is None
+
+
 @pytest.mark.parametrize("load_hz", [None, 4.0])
 def test_the_open_loop_measured_in_the_closed_one_is_that_of_the_linear_rig(
     load_hz: float | None,
