@@ -44,15 +44,24 @@ class _Result(NamedTuple):
 
 
 class Ledger:
-    """Writes into the database what the recorder saw; `changed` is called after each run's change."""
+    """Writes into the database what the recorder saw.
+
+    `changed` is called after each run's change, `over` with a run's number and ticks once all is written.
+    """
 
     def __init__(
-        self, database: Database, runs_dir: Path, measure: Measurer, changed: Callable[[], None]
+        self,
+        database: Database,
+        runs_dir: Path,
+        measure: Measurer,
+        changed: Callable[[], None],
+        over: Callable[[int, int], None] = lambda run_id, ticks: None,
     ) -> None:
         self._database = database
         self._runs_dir = runs_dir
         self._measure = measure
         self._changed = changed
+        self._over = over
 
     def open_runs(self) -> Sequence[OpenRun]:
         """The runs without an outcome, oldest first."""
@@ -88,6 +97,7 @@ class Ledger:
                 criteria = criterion_rows(run_id, result.judged)
                 repository.set_measured(session, run_id, measurements, criteria)
         self._changed()
+        self._over(run_id, recorded.ticks)
 
     def _measured(self, run_id: int, recorded: Recorded, ending: Ending) -> _Result:
         """Outside of any transaction, for it may take a minute. Nothing in it may lose the run."""

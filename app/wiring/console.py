@@ -69,7 +69,10 @@ class Console:
         self.access = Access(self.database)
         self.histories = Store(settings.histories_dir)
         measuring = partial(measure, histories=self.histories)
-        ledger = Ledger(self.database, settings.runs_dir, measuring, self._runs_changed)
+        ledger = Ledger(
+            *(self.database, settings.runs_dir, measuring, self._runs_changed),
+            over=lambda run_id, ticks: self.results.run_over(run_id, ticks),
+        )
         self._clerk = Clerk(settings.runs_dir, ledger)
         self.recorder = Recorder(settings.runs_dir, self._clerk)
         block = block_path(settings.data_dir)

@@ -1,5 +1,6 @@
 """What is made of runs: read while one is under way, and long after."""
 
+import logging
 from collections.abc import Callable
 
 from app.comparison.service import Comparisons
@@ -20,6 +21,9 @@ from app.runs.results import Results
 from app.runs.samples import RunWindows
 from app.runs.service import Runs
 from app.settings import Settings
+
+_log = logging.getLogger(__name__)
+LONG_TICKS = 1_000_000  # four minutes: analysed in a second or more; an hour takes some ten
 
 
 class RunResults:
@@ -57,6 +61,15 @@ class RunResults:
         """Follow runs, and end what was being exported when the console died."""
         self.live_responses.start()
         self.exports.open()
+
+    def run_over(self, run_id: int, ticks: int) -> None:
+        """Analyse a long run before anybody asks for it, or for its report."""
+        if ticks < LONG_TICKS:
+            return
+        try:
+            self.analyses.of(run_id)
+        except Exception:  # whoever wants it asks again; the run itself is written down
+            _log.exception("run %d was not analysed ahead", run_id)
 
     def close(self) -> None:
         """End what is being computed."""

@@ -81,7 +81,9 @@ class _Lab:
         self.runs_dir = folder / "runs"
         self.database = Database(f"sqlite:///{folder / 'book.db'}")
         self.database.upgrade()
-        ledger = Ledger(self.database, self.runs_dir, measurer, lambda: None)
+        self.over: list[tuple[int, int]] = []
+        ended = lambda run_id, ticks: self.over.append((run_id, ticks))  # noqa: E731
+        ledger = Ledger(self.database, self.runs_dir, measurer, lambda: None, ended)
         self._clerk = Clerk(self.runs_dir, ledger)
         self.results = Results(self.database, self.runs_dir, None)
         self.run_id = self._enter(data)
@@ -182,6 +184,15 @@ def test_what_is_measured_is_what_numpy_has_of_the_record(
     assert values["mean_peak_n"] == pytest.approx(np.mean(peaks), rel=1e-6)
     error_n = counted["force_error_n"].astype(np.float64)
     assert values["force_error_rms_n"] == pytest.approx(np.sqrt(np.mean(error_n**2)), rel=1e-6)
+
+
+def test_whoever_waits_for_the_end_is_told_once_it_is_written(
+    tmp_path: Path, records: npt.NDArray[Any]
+) -> None:
+    lab = _Lab(tmp_path, _data())
+    assert lab.over == []
+    lab.finalise(records)
+    assert lab.over == [(lab.run_id, len(records))]
 
 
 def test_one_limit_that_is_not_kept_fails_it(tmp_path: Path, records: npt.NDArray[Any]) -> None:
