@@ -62,6 +62,7 @@ class Code(StrEnum):
     INTERLOCKS_WEAKENED = "interlocks_weakened"
     NO_PROGRAM = "no_program"
     BUSY = "busy"
+    BROKE_OFF = "broke_off"
     NO_SPACE = "no_space"
     PREDICTION_REFUSED = "prediction_refused"
     PREDICTION_PENDING = "prediction_pending"

@@ -71,6 +71,7 @@ STATUS: Mapping[Code, int] = {
     Code.INTERLOCKS_WEAKENED: 409,
     Code.NO_PROGRAM: 409,
     Code.BUSY: 409,
+    Code.BROKE_OFF: 503,
     Code.NO_SPACE: 409,
     Code.PREDICTION_REFUSED: 409,
     Code.PREDICTION_PENDING: 409,

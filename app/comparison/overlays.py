@@ -47,7 +47,7 @@ class Overlays:
         if not job.ended.wait(wait_s):
             return Computing(share=job.share, seconds_left=job.seconds_left)
         if job.state is not JobState.DONE or job.result is None:
-            return Refusal(Code.NO_DATA, f"These runs cannot be compared: {job.reason}")
+            return job.why_not("These runs cannot be compared", Code.NO_DATA)
         return self._keep(asked, job.result)
 
     def _keep(self, asked: Asked, found: OverlayOut | Refusal) -> OverlayOut | Refusal:

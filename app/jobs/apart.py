@@ -16,7 +16,11 @@ Report = Callable[[float], None]  # told the share that is done, 0…1
 
 
 class WorkFailed(Exception):
-    """The work raised, or its process died; the text says what happened."""
+    """Nothing came of the work; the text says what happened."""
+
+
+class BrokeOff(WorkFailed):
+    """Its process died: that is no fault of the work's, and another try may come to its end."""
 
 
 class GivenUp(Exception):
@@ -28,7 +32,7 @@ def run_apart(
 ) -> T:
     """`work(report, *arguments)`, done by another process; function, arguments and result are pickled.
 
-    Raises `WorkFailed` where it raised or died, `GivenUp` once it is unwanted.
+    Raises `WorkFailed` where it raised, `BrokeOff` where it died, `GivenUp` once it is unwanted.
     """
     context = get_context("spawn")
     ours, theirs = context.Pipe(duplex=False)
@@ -53,7 +57,7 @@ def _outcome(connection: Connection, report: Report, unwanted: Event | None) -> 
         try:
             word, told = connection.recv()
         except EOFError:
-            raise WorkFailed("Its process ended before it was done") from None
+            raise BrokeOff("Its process ended before it was done: try again") from None
         if word == "done":
             return told
         if word == "failed":

@@ -13,7 +13,7 @@ from secrets import token_hex
 from typing import Any, Generic, TypeVar
 
 from app.errors import Code, Refusal
-from app.jobs.apart import GivenUp, WorkFailed, run_apart
+from app.jobs.apart import BrokeOff, GivenUp, WorkFailed, run_apart
 
 MOST_WAITING = 8
 MOST_KEPT = 32
@@ -34,7 +34,10 @@ class JobState(StrEnum):
 
 @dataclass
 class Job(Generic[T]):
-    """Some long work, how far it is, and what came of it; `reason` says why nothing did."""
+    """Some long work, how far it is, and what came of it; `reason` says why nothing did.
+
+    `broke_off` where its process died.
+    """
 
     title: str
     id: str = field(default_factory=lambda: token_hex(8))
@@ -44,6 +47,7 @@ class Job(Generic[T]):
     began_s: float | None = None
     result: T | None = None
     reason: str | None = None
+    broke_off: bool = False
     unwanted: threading.Event = field(default_factory=threading.Event)
     ended: threading.Event = field(default_factory=threading.Event)
 
@@ -57,6 +61,10 @@ class Job(Generic[T]):
     def report(self, share: float) -> None:
         """The share that is done, 0…1."""
         self.share = share
+
+    def why_not(self, sentence: str, code: Code) -> Refusal:
+        """Why nothing came of it; `code` says so where its process lived to the end."""
+        return Refusal(Code.BROKE_OFF if self.broke_off else code, f"{sentence}: {self.reason}")
 
 
 class Jobs(Generic[T]):
@@ -137,6 +145,7 @@ class Jobs(Generic[T]):
             job.state, job.reason = JobState.CANCELLED, "It was given up"
         except WorkFailed as error:
             job.state, job.reason = JobState.FAILED, str(error)
+            job.broke_off = isinstance(error, BrokeOff)
         except Exception as error:
             _log.exception("%s", job.title)
             job.state, job.reason = JobState.FAILED, str(error)

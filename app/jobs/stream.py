@@ -6,7 +6,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from typing import Any
 
-from app.jobs.apart import WorkFailed, settle_down
+from app.jobs.apart import BrokeOff, settle_down
 
 PIECE_BYTES = 262_144
 _END = b""
@@ -15,7 +15,7 @@ _END = b""
 class Stream:
     """The bytes that `write(out, *arguments)` writes; `close` ends the process, however far it is.
 
-    Iterating raises `WorkFailed` where it did not come to its end.
+    Iterating raises `BrokeOff` where it did not come to its end.
     """
 
     def __init__(self, write: Callable[..., None], *arguments: Any) -> None:
@@ -30,7 +30,7 @@ class Stream:
             try:
                 piece = self._ours.recv_bytes()
             except (EOFError, OSError):
-                raise WorkFailed("It broke off") from None
+                raise BrokeOff("Its process ended before it was done") from None
             if piece == _END:
                 return
             yield piece

@@ -63,8 +63,10 @@ async def get_comparison_report_pdf(
     if isinstance(found, Computing):
         raise Refused(TOO_LONG)
     job = granted(reports.compare(granted(found)))
-    if not await _ended(job) or job.result is None:
+    if not await _ended(job):
         raise Refused(TOO_LONG)
+    if job.result is None:
+        raise Refused(job.why_not("The comparison was not made", Code.BUSY))
     name = f"forcerig-runs-{'-'.join(map(str, numbers))}.pdf"
     head = {"Content-Disposition": f'inline; filename="{name}"'}
     return _PdfBytes(granted(job.result), headers=head)

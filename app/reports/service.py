@@ -72,7 +72,7 @@ class Reports:
             return job.result
         if job.state is not JobState.DONE:
             code = Code.BUSY if job.state is JobState.CANCELLED else Code.INVALID_REPORT
-            return Refusal(code, f"The report of run {wanted.run_id} was not made. {job.reason}")
+            return job.why_not(f"The report of run {wanted.run_id} was not made", code)
         found = self.begin(wanted)
         if isinstance(found, Ready | Refusal):
             return found

@@ -68,7 +68,7 @@ class Analyses:
         if found is not None:
             return found
         _log.warning("run %d was not analysed: %s", run_id, job.reason)
-        return Refusal(Code.NO_DATA, f"Run {run_id} cannot be analysed: {job.reason}")
+        return job.why_not(f"Run {run_id} was not analysed", Code.NO_DATA)
 
     def _without_samples(self, run_id: int, subject: Subject) -> Refusal | None:
         if open_samples(subject.folder) is not None:

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from app.errors import Refusal
+from app.errors import Code, Refusal
 from app.jobs.apart import NICENESS, GivenUp, WorkFailed, run_apart
 from app.jobs.jobs import Job, Jobs, JobState
 from app.jobs.stream import PIECE_BYTES, Stream
@@ -109,6 +109,15 @@ def test_a_job_that_fails_says_why(jobs: Jobs[Any]) -> None:
     assert job.ended.wait(60)
     assert job.state is JobState.FAILED
     assert job.reason == "ValueError: no such orifice"
+
+
+def test_a_job_whose_process_died_is_nobodys_fault(jobs: Jobs[Any]) -> None:
+    died, wrong = (started(jobs.start(title, getattr(work, title))) for title in ("dies", "wrong"))
+    assert died.ended.wait(60)
+    assert wrong.ended.wait(60)
+    told = died.why_not("Nothing was made", Code.NO_DATA)
+    assert (told.code, told.detail[-9:]) == (Code.BROKE_OFF, "try again")
+    assert wrong.why_not("Nothing was made", Code.NO_DATA).code is Code.NO_DATA
 
 
 def test_jobs_are_given_up_running_or_waiting(jobs: Jobs[Any], tmp_path: Path) -> None:
