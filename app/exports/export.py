@@ -17,6 +17,7 @@ KEPT = timedelta(hours=1)
 class Export:
     """It is at `path` once its job is done."""
 
+    user_id: int | None  # who wants it
     run_id: int
     format: FormatName
     wanted: Extract

@@ -1,20 +1,19 @@
 """`/api/v1/runs/{id}/data.{format}` and `/api/v1/runs/{id}/exports`."""
 
-from collections.abc import AsyncIterator, Callable
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path, Query, Response
-from fastapi.concurrency import iterate_in_threadpool, run_in_threadpool
-from fastapi.responses import FileResponse, StreamingResponse
+from fastapi import APIRouter, Path, Query, Request, Response
+from fastapi.concurrency import run_in_threadpool
+from fastapi.responses import FileResponse
 
 from app.access.dependencies import Viewer
 from app.db import NO_NUL
 from app.dependencies import ExportsService, RunsService
+from app.exports.download import Download
 from app.exports.extract import Wanted
 from app.exports.formats import FORMATS, FormatName
 from app.exports.schemas import ExportAsked, ExportOut, Seconds
 from app.exports.sending import whole_file
-from app.jobs.stream import Stream
 from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/runs", tags=["exports"], responses=PROBLEMS)
@@ -36,6 +35,7 @@ _MEDIA: dict[int | str, dict[str, Any]] = {
     responses=_MEDIA,
 )
 async def get_run_data(
+    request: Request,
     who: Viewer,
     run_id: RunId,
     ending: FormatName,
@@ -53,16 +53,16 @@ async def get_run_data(
         path = granted(await run_in_threadpool(runs.parquet, run_id))
         return FileResponse(path, media_type=media_type, filename=name)
     if FORMATS[ending].stream is None:
-        return await whole_file(exports, run_id, ending, wanted, name)
-    found = granted(await run_in_threadpool(exports.stream, run_id, ending, wanted))
+        return await whole_file(request, exports, who, (run_id, ending, wanted), name)
+    found = granted(await run_in_threadpool(exports.stream, who, run_id, ending, wanted))
     head = {"Content-Disposition": f'attachment; filename="{name}"'}
-    return StreamingResponse(_pieces(*found), media_type=media_type, headers=head)
+    return Download(*found, media_type=media_type, headers=head)
 
 
 @router.post("/{run_id}/exports", status_code=202, operation_id="exportRun")
 def export_run(who: Viewer, run_id: RunId, body: ExportAsked, exports: ExportsService) -> ExportOut:
     """Have a file made: ask for its progress, then for the file. It is kept for an hour."""
-    return granted(exports.start(run_id, body.format, body.wanted))
+    return granted(exports.start(who, run_id, body.format, body.wanted))
 
 
 @router.get("/{run_id}/exports", operation_id="listExports")
@@ -99,13 +99,5 @@ def get_export_file(
 def remove_export(
     who: Viewer, run_id: RunId, export_id: ExportId, exports: ExportsService
 ) -> ExportOut:
-    """Give it up, or remove its file."""
-    return granted(exports.remove(run_id, export_id))
-
-
-async def _pieces(made: Stream, end: Callable[[], None]) -> AsyncIterator[bytes]:
-    try:
-        async for piece in iterate_in_threadpool(made):
-            yield piece
-    finally:
-        end()
+    """Give it up, or remove its file: one's own, and an operator anybody's."""
+    return granted(exports.remove(who, run_id, export_id))

@@ -2,23 +2,28 @@
 
 import threading
 from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from secrets import token_hex
 
+from app.access.principal import Principal, Role, lacking
 from app.audit.record import Entry, note
 from app.errors import Code, Refusal
 from app.exports.export import Export
 from app.exports.extract import Extract, Wanted, extract
 from app.exports.formats import FORMATS, FormatName
 from app.exports.making import UNDER_WAY, make, stream
+from app.exports.places import Places
 from app.exports.schemas import ExportOut
 from app.jobs.jobs import Jobs, JobState
 from app.jobs.stream import Stream
 from app.storage.space import space_of
 
 LOOK_S = 20.0
-MOST_STREAMS = 3
+MOST_STREAMS, MOST_STREAMS_EACH = 3, 2
+MOST_EACH = 3  # exports that somebody has waiting or under way
 
 
 class Exports:
@@ -33,7 +38,8 @@ class Exports:
         self._jobs: Jobs[int] = Jobs("exports")
         self._known: dict[str, Export] = {}
         self._lock = threading.Lock()
-        self._streams = threading.BoundedSemaphore(MOST_STREAMS)
+        self._starting = threading.Lock()
+        self._streams = Places("downloads", MOST_STREAMS, MOST_STREAMS_EACH)
         self._ended = threading.Event()
         self._sweeper = threading.Thread(target=self._sweep_often, name="exports", daemon=True)
 
@@ -48,7 +54,9 @@ class Exports:
         self._ended.set()
         self._jobs.close()
 
-    def start(self, run_id: int, name: FormatName, wanted: Wanted) -> ExportOut | Refusal:
+    def start(
+        self, who: Principal, run_id: int, name: FormatName, wanted: Wanted
+    ) -> ExportOut | Refusal:
         """Begin to make one."""
         found = self._find(run_id, name, wanted)
         if isinstance(found, Refusal):
@@ -57,14 +65,10 @@ class Exports:
         no_room = self._why_no_room(name, found, reserved)
         if no_room is not None:
             return no_room
-        path = self._folder / f"{token_hex(8)}.{name}"
-        title = f"{FORMATS[name].title} of run {run_id}"
-        job = self._jobs.start(title, make, path, name, found, reserved)
-        if isinstance(job, Refusal):
-            return job
-        export = Export(run_id, name, found, path, job)
-        with self._lock:
-            self._known[job.id] = export
+        with self._starting:
+            export = self._has_enough(who) or self._begin(who, run_id, name, found, reserved)
+        if isinstance(export, Refusal):
+            return export
         note(
             Entry(
                 "runs.export",
@@ -84,6 +88,20 @@ class Exports:
         export = self._one(run_id, export_id)
         return export if isinstance(export, Refusal) else export.shown()
 
+    def has_ended(self, run_id: int, export_id: str) -> bool | Refusal:
+        """Whether nothing more comes of one."""
+        export = self._one(run_id, export_id)
+        return export if isinstance(export, Refusal) else export.job.ended.is_set()
+
+    def made(self, run_id: int, export_id: str) -> Path | Refusal:
+        """The file of one that has ended, or why there is none."""
+        export = self._one(run_id, export_id)
+        if isinstance(export, Refusal):
+            return export
+        if export.job.state is JobState.DONE:
+            return export.path
+        return export.job.why_not(f"The file of run {run_id} was not made", Code.BUSY)
+
     def file(self, run_id: int, export_id: str) -> Path | Refusal:
         """The file of one that is made."""
         export = self._one(run_id, export_id)
@@ -94,11 +112,14 @@ class Exports:
             return Refusal(Code.NO_DATA, detail)
         return export.path
 
-    def remove(self, run_id: int, export_id: str) -> ExportOut | Refusal:
-        """Give one up, or remove its file."""
+    def remove(self, who: Principal, run_id: int, export_id: str) -> ExportOut | Refusal:
+        """Give one up, or remove its file: one's own, and an operator anybody's."""
         export = self._one(run_id, export_id)
         if isinstance(export, Refusal):
             return export
+        others = None if export.user_id == who.user_id else lacking(who, Role.OPERATOR)
+        if others is not None:
+            return replace(others, detail=f"Somebody else wants this export. {others.detail}")
         self._jobs.cancel(export_id)
         with self._lock:
             self._known.pop(export_id, None)
@@ -107,28 +128,41 @@ class Exports:
         return export.shown()
 
     def stream(
-        self, run_id: int, name: FormatName, wanted: Wanted
+        self, who: Principal, run_id: int, name: FormatName, wanted: Wanted
     ) -> tuple[Stream, Callable[[], None]] | Refusal:
         """One as bytes that come while it is made, and what to call when nobody reads them any more."""
         found = self._find(run_id, name, wanted)
         if isinstance(found, Refusal):
             return found
-        if not self._streams.acquire(blocking=False):
-            detail = (
-                f"{MOST_STREAMS} downloads are being made already: try again when one has ended"
-            )
-            return Refusal(Code.BUSY, detail)
-        try:
+        refusal = self._streams.take(who.user_id)
+        if refusal is not None:
+            return refusal
+        with ExitStack() as held:
+            held.callback(self._streams.give_back, who.user_id)
             made = Stream(stream, name, found)
-        except BaseException:
-            self._streams.release()
-            raise
+            held.callback(made.close)
+            return made, held.pop_all().close
 
-        def end() -> None:
-            made.close()
-            self._streams.release()
+    def _has_enough(self, who: Principal) -> Refusal | None:
+        with self._lock:
+            theirs = [e.job for e in self._known.values() if e.user_id == who.user_id]
+        if sum(not job.ended.is_set() for job in theirs) < MOST_EACH:
+            return None
+        detail = f"You have {MOST_EACH} exports under way: wait until one has ended, or remove one"
+        return Refusal(Code.BUSY, detail)
 
-        return made, end
+    def _begin(
+        self, who: Principal, run_id: int, name: FormatName, wanted: Extract, reserved: int
+    ) -> Export | Refusal:
+        path = self._folder / f"{token_hex(8)}.{name}"
+        title = f"{FORMATS[name].title} of run {run_id}"
+        job = self._jobs.start(title, make, path, name, wanted, reserved)
+        if isinstance(job, Refusal):
+            return job
+        export = Export(who.user_id, run_id, name, wanted, path, job)
+        with self._lock:
+            self._known[job.id] = export
+        return export
 
     def _find(self, run_id: int, name: FormatName, wanted: Wanted) -> Extract | Refusal:
         path = self._run_file(run_id)
