@@ -7,7 +7,7 @@ import numpy.typing as npt
 import pytest
 from scipy.optimize import brentq
 
-from app.analysis.step_response import step_response
+from app.analysis.step_response import StepFollower, StepResponse, step_response
 
 PERIOD_S = 1e-5
 TIME_S = np.arange(200_000) * PERIOD_S
@@ -64,6 +64,40 @@ def test_a_sample_that_is_not_a_number_is_not_settled() -> None:
     response = np.ones(100)
     response[40] = np.nan
     assert step_response(response, 0, 1, 1.0).settling_s == 41
+
+
+def _seen(samples: npt.NDArray[np.int64], response: npt.NDArray[np.float64]) -> StepResponse:
+    follower = StepFollower(0.0, 1.0, 1.0, 2000)
+    follower.take(samples, response[samples])
+    return follower.read()
+
+
+LAG = 1 - np.exp(-np.arange(4000) / 40.0)  # 5 % at 2.1, 10 % at 4.2, 90 % at 92.1, 98 % at 156.5
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "dead", "rise", "settling"),
+    [
+        (0, 0, 2.05, 87.9, 157),
+        (4, 20, 2.05, math.nan, 157),  # 10 % was reached while nobody looked
+        (2, 400, math.nan, math.nan, 400),  # all of it; from 400 on it is seen to be settled
+        (100, 300, 2.05, 87.9, 300),
+        (20, 80, 2.05, 87.9, 157),  # between the two
+        (0, 50, math.nan, math.nan, 157),
+        (0, 2, 2.05, 87.9, 157),
+    ],
+)
+def test_what_happened_while_ticks_were_missed_is_not_made_up(
+    first: int, last: int, dead: float, rise: float, settling: float
+) -> None:
+    wanted = pytest.approx((dead, rise, settling), abs=0.02, nan_ok=True)
+    kept = np.delete(np.arange(4000), slice(first, last))
+    found = _seen(kept, LAG)
+    assert (found.dead_time_s, found.rise_s, found.settling_s) == wanted
+    gaps = LAG.copy()
+    gaps[first:last] = np.nan
+    found = _seen(np.arange(4000), gaps)
+    assert (found.dead_time_s, found.rise_s, found.settling_s) == wanted
 
 
 def test_a_step_without_height_or_samples_is_no_step() -> None:
