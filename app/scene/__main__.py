@@ -30,7 +30,8 @@ def main(path: Path) -> None:
     os.dup2(2, 1)  # viser prints: that goes to the log
     first = told_in(sys.stdin.buffer.readline())
     assert isinstance(first, RigTold), "the rig is told first"
-    listen_at(path)
+    os.chdir(path.parent)  # the name of a socket may not be long, that of a folder may
+    listen_at(Path(path.name))
     stage = Stage(first.chain)
     stage.open(PrivateServer(host="127.0.0.1", port=0, verbose=False))
     threading.Thread(target=_listen, args=(stage,), daemon=True).start()

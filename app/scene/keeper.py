@@ -7,7 +7,7 @@ from pathlib import Path
 
 from app.link.backoff import Backoff
 from app.scene.chain import Chain, Reading
-from app.scene.process import SceneProcess
+from app.scene.process import SceneProcess, sweep
 from app.scene.schemas import SceneState
 from app.scene.telling import LiveTold, RigTold, ViewTold
 
@@ -20,9 +20,10 @@ class Keeper:
     """A task of the event loop. `chain` and `reading` tell the rig in force, and the rig now."""
 
     def __init__(
-        self, log: Path, chain: Callable[[], Chain], reading: Callable[[], Reading]
+        self, data_dir: Path, chain: Callable[[], Chain], reading: Callable[[], Reading]
     ) -> None:
-        self._log_file = log
+        self._log_file = data_dir / "scene.log"
+        self._folder = data_dir.resolve() / "scene"
         self._chain, self._reading = chain, reading
         self._backoff = Backoff()
         self._wanted = asyncio.Event()
@@ -36,6 +37,7 @@ class Keeper:
 
     def start(self) -> None:
         """Begin to keep it: nothing runs before it is wanted."""
+        sweep(self._folder)
         self._task = asyncio.get_running_loop().create_task(self._keep())
 
     async def stop(self) -> None:
@@ -88,7 +90,7 @@ class Keeper:
     async def _live(self) -> str | None:
         """One life: why it ended, None where nobody looks any more."""
         self.state = SceneState.STARTING
-        async with SceneProcess(self._log_file) as process:
+        async with SceneProcess(self._log_file, self._folder) as process:
             self.life += 1
             self._process = process
             told = self._chain()

@@ -1,9 +1,9 @@
 """One life of the scene's process, as the console sees it."""
 
 import asyncio
+import os
 import shutil
 import sys
-import tempfile
 from asyncio.subprocess import PIPE, Process
 from pathlib import Path
 from types import TracebackType
@@ -17,13 +17,24 @@ MOST_UNREAD_BYTES = 65_536  # of what is told: then the rig now is left out, as 
 END_LIMIT_S = 2.0
 
 
+SOCKET = "socket"
+
+
+def sweep(folder: Path) -> None:
+    """Remove what a process has left, and who kept it could not: they were killed."""
+    shutil.rmtree(folder, ignore_errors=True)
+
+
 class SceneProcess:
     """Started on entering, ended on leaving. What it says goes to a log, its socket to a folder of its own."""
 
-    def __init__(self, log: Path) -> None:
+    def __init__(self, log: Path, folder: Path) -> None:
+        """`folder` is of one such process at a time: what an earlier one has left there goes."""
         self._log = log
-        self._folder = Path(tempfile.mkdtemp(prefix="forcerig-scene-"))  # for this user alone
-        self.socket = self._folder / "scene"
+        self._folder = folder
+        sweep(folder)
+        folder.mkdir(mode=0o700)  # for this user alone
+        self._opened = -1
         self._process: Process | None = None
         self._hearing: asyncio.Task[None] | None = None
         self._heard_s = self._clock_s()
@@ -32,12 +43,13 @@ class SceneProcess:
     async def __aenter__(self) -> Self:
         with self._log.open("wb") as log:
             self._process = await asyncio.create_subprocess_exec(
-                *(sys.executable, "-m", "app.scene", str(self.socket)),
+                *(sys.executable, "-m", "app.scene", str(self._folder / SOCKET)),
                 stdin=PIPE,
                 stdout=PIPE,
                 stderr=log,
                 start_new_session=True,
             )
+        self._opened = os.open(self._folder, os.O_PATH | os.O_DIRECTORY)
         self._hearing = asyncio.create_task(self._hear())
         return self
 
@@ -54,7 +66,13 @@ class SceneProcess:
         if hearing is not None:
             hearing.cancel()
             await asyncio.gather(hearing, return_exceptions=True)
-        shutil.rmtree(self._folder, ignore_errors=True)
+        os.close(self._opened)
+        sweep(self._folder)
+
+    @property
+    def socket(self) -> str:
+        """Where it listens: however deep the folder lies, the name of a socket is short."""
+        return f"/proc/self/fd/{self._opened}/{SOCKET}"
 
     @property
     def pid(self) -> int:

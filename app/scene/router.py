@@ -16,7 +16,7 @@ from app.access.service import Access
 from app.access.sockets import until_sent_away
 from app.dependencies import SceneService
 from app.errors import Refusal
-from app.problems import PROBLEMS, granted
+from app.problems import PROBLEMS, granted, problem
 from app.scene.page import scene_page
 from app.scene.relay import relay
 from app.scene.schemas import VIEW_NAME, SceneCursor, SceneOut
@@ -24,7 +24,8 @@ from app.scene.service import Scene
 
 router = APIRouter()
 Name = Annotated[str, Path(pattern=VIEW_NAME)]
-SERVICE_RESTART, TRY_AGAIN_LATER = 1012, 1013
+SERVICE_RESTART = 1012
+UNAVAILABLE = 503
 
 
 @router.get("/api/v1/scene", operation_id="getScene", tags=["scene"], responses=PROBLEMS)
@@ -79,7 +80,7 @@ async def _look(who: Principal, socket: WebSocket, scene: Scene, access: Access,
     """Until either side or the right to it ends."""
     async with scene.looking(who.id, view, socket.scope["subprotocols"]) as found:
         if isinstance(found, Refusal):
-            await socket.close(TRY_AGAIN_LATER, found.detail)
+            await socket.send_denial_response(problem(found, UNAVAILABLE))
             return
         async with found:
             await socket.accept(found.subprotocol)

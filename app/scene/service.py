@@ -24,6 +24,7 @@ from rtcore.rig.parameters import RigParameters
 MOST_VIEWERS = 16
 MOST_VIEWS = 64  # whose cursors are remembered
 PATIENCE_S = 4.0  # viser's page gives up after five
+RETRY_S = 2  # after which somebody who was refused may ask again
 MOST_FRAME_BYTES = 4_000_000
 PROTOCOL = "viser-v"
 
@@ -40,13 +41,13 @@ class Scene:
 
     def __init__(
         self,
-        folder: Path,
+        data_dir: Path,
         life: Callable[[], Life | None],
         rig: Callable[[], RigParameters],
         moments: Moments,
     ) -> None:
         self._rig = rig
-        self.keeper = Keeper(folder / "scene.log", self._chain, lambda: reading_now(life()))
+        self.keeper = Keeper(data_dir, self._chain, lambda: reading_now(life()))
         self._moments = moments
         self._views: OrderedDict[str, View] = OrderedDict()
 
@@ -101,11 +102,11 @@ class Scene:
     async def _connect(self, name: str, protocols: list[str]) -> ClientConnection | Refusal:
         process = await self.keeper.until_ready(PATIENCE_S)
         if process is None:
-            return Refusal(Code.BUSY, self.shown().detail)
+            return _later(self.shown().detail)
         self.keeper.tell(ViewTold(name, self._views.get(name, View())))
         try:
             return await unix_connect(
-                str(process.socket),
+                process.socket,
                 address_of(name),
                 subprotocols=[p for p in protocols if p.startswith(PROTOCOL)][:1],
                 compression=None,
@@ -114,7 +115,11 @@ class Scene:
                 open_timeout=PATIENCE_S,
             )
         except (OSError, TimeoutError, WebSocketException) as error:
-            return Refusal(Code.BUSY, f"The 3-D view does not answer: {error}")
+            return _later(f"The 3-D view does not answer: {error}")
+
+
+def _later(why: str) -> Refusal:
+    return Refusal(Code.BUSY, f"{why}: try again in a moment", about={"retry_after_s": RETRY_S})
 
 
 def _name(who_id: str, view: str) -> str:
