@@ -144,6 +144,16 @@ def goodness(
 
 
 @analyse.command()
+def unit(
+    run: Annotated[Path, typer.Argument(help="A run's Parquet file.")], json: Json = False
+) -> None:
+    """Static stiffness, hysteresis and backlash of the unit under test, from slow cycles of 2 Hz or less."""
+    from app.commands.run_analyses import unit as tell
+
+    raise typer.Exit(tell(run, json))
+
+
+@analyse.command()
 def identification(
     runs: Annotated[list[Path], typer.Argument(help="Parquet files of runs of one rig.")],
     rig: Annotated[

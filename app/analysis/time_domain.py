@@ -1,7 +1,8 @@
-"""What a run was like in time: layers with their cycles and harmonics, steps, likeness, uncertainty.
+"""What a run was like in time: layers with their cycles and harmonics, steps, the unit, likeness, uncertainty.
 
-One pass over its chunks, in memory that grows with the test's layers and steps only, and those are told up to
-a number. Rainflow counting takes passes of its own: `app.analysis.rainflow_counting`.
+One pass over its chunks, in memory that grows with the test's layers and steps only, beside at most 10 MB of slow
+cycles; layers and steps are told up to a number. Rainflow counting takes passes of its own:
+`app.analysis.rainflow_counting`.
 """
 
 import math
@@ -14,6 +15,7 @@ from app.analysis.dynamics import DynamicsReader
 from app.analysis.evidence import Kind, Sine, Stretch
 from app.analysis.predicted import Predicted
 from app.analysis.sines import FoundSine, Harmonic, SineFit
+from app.analysis.slow_reader import SlowReader, SlowSine
 from app.analysis.step_response import StepFollower, StepResponse
 from app.analysis.tally import Tally, Tallying
 from app.analysis.uncertainty import Controlled, Known, Measured, controlled, measured
@@ -70,6 +72,7 @@ class TimeDomain(NamedTuple):
     likeness: Likeness | None
     measured: Measured
     controlled: Controlled
+    slow: tuple[SlowSine, ...] = ()
 
 
 class TimeReader:
@@ -93,6 +96,7 @@ class TimeReader:
         self._dynamics = DynamicsReader(Chain.of(rig), period_s)
         self._sines = SineFit(period_s)
         self._cycles = CyclesByLayer()
+        self._slow = SlowReader(period_s, rig)
         self._steps: list[Step] = []
         self._steps_in_all = 0
         self._step: tuple[Stretch, StepFollower] | None = None
@@ -103,6 +107,7 @@ class TimeReader:
         for part in self._walk.take(chunk):
             self._sines.take(part)
             self._cycles.take(part)
+            self._slow.take(part)
             self._follow_step(part)
             self._compare(part)
 
@@ -120,6 +125,7 @@ class TimeReader:
             self._likeness(),
             measured(found, self._rig, self._period_s, self._known),
             controlled(found),
+            self._slow.result(),
         )
 
     def _layers(self) -> list[Layer]:

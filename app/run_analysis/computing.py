@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pyarrow.parquet as pq
 
 from app.analysis.predicted import Predicted
@@ -14,7 +13,6 @@ from app.analysis.rainflow_counting import CountedCycles, count_cycles
 from app.analysis.time_domain import NEEDED, TimeReader
 from app.analysis.uncertainty import Known
 from app.analysis.walk import Columns
-from app.definitions.definition import Definition
 from app.definitions.windows import stretches
 from app.histories.history import Histories
 from app.prediction.series_file import NAME as PREDICTED
@@ -25,7 +23,6 @@ from app.rig_configuration.record import configuration_of, model_of
 from app.run_analysis.schemas import VERSION, RunAnalysis
 from app.run_analysis.told import told
 from app.runs.measuring import read_definition
-from rtcore.rig.parameters import RigParameters
 
 NAME = "analysis.json"
 _READING, _COUNTING = 0.6, 0.2  # shares of the work: the first pass, and each of the two after it
@@ -82,17 +79,6 @@ def analysis_of(subject: Subject, report: Progress) -> RunAnalysis:
     applied = _counted(samples, "force_n", report, _READING)
     asked = _counted(samples, "force_command_n", report, _READING + _COUNTING)
     return told(reader.result(), asked, applied, subject.period_s)
-
-
-def analysis_of_records(
-    definition: Definition, records: npt.NDArray[Any], period_s: float, rig: RigParameters
-) -> RunAnalysis:
-    """The same of a run in memory, (n,) TELEMETRY."""
-    reader = TimeReader(stretches(definition), period_s, rig)
-    reader.take(records)
-    applied = count_cycles([records["force_n"]])
-    asked = count_cycles([records["force_command_n"]])
-    return told(reader.result(), asked, applied, period_s)
 
 
 def known_of(rig: Mapping[str, Any]) -> Known | None:

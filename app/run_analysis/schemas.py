@@ -7,7 +7,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from app.analysis.uncertainty import Shape, Source
 
-VERSION = 1  # of what is kept: one of another version is computed anew
+VERSION = 2  # of what is kept: one of another version is computed anew
 
 
 def _finite(value: Any) -> Any:
@@ -84,6 +84,22 @@ class StepOut(_Read):
     overshoot_percent: Number
     settling_s: Number
     steady_error_n: Number
+
+
+class UnitOut(_Read):
+    """The unit under test as slow cycles that push and pull show it; deviations are from cycle to cycle.
+
+    `hysteresis_j` is the energy that it loses in a cycle, `backlash_m` its free play.
+    """
+
+    block: int
+    asked: SineOut
+    cycles: int
+    stiffness_n_m: Number
+    stiffness_std_n_m: Number
+    hysteresis_j: Number
+    hysteresis_std_j: Number
+    backlash_m: Number
 
 
 class LikenessOut(_Read):
@@ -181,6 +197,7 @@ class RunAnalysis(BaseModel):
     layers_in_all: int
     steps: list[StepOut]
     steps_in_all: int
+    unit: list[UnitOut]
     goodness: LikenessOut | None
     rainflow: RainflowOut
     damage: list[DamageOut]

@@ -2,6 +2,7 @@
 
 from app.analysis.damage import class_width_n, damages, matrix, spectrum
 from app.analysis.rainflow_counting import GATE_N, CountedCycles
+from app.analysis.slow_reader import SlowSine
 from app.analysis.time_domain import Layer, Step, TimeDomain
 from app.analysis.uncertainty import COVERAGE
 from app.run_analysis.schemas import (
@@ -18,6 +19,7 @@ from app.run_analysis.schemas import (
     SpreadOut,
     StepOut,
     UncertaintyOut,
+    UnitOut,
 )
 
 
@@ -30,6 +32,7 @@ def told(
         layers_in_all=time.layers_in_all,
         steps=[_step(step, period_s) for step in time.steps],
         steps_in_all=time.steps_in_all,
+        unit=[unit_out(one) for one in time.slow],
         goodness=None if time.likeness is None else LikenessOut.model_validate(time.likeness),
         rainflow=_rainflow(asked, applied),
         damage=[DamageOut.model_validate(one) for one in damages(asked, applied)],
@@ -75,6 +78,12 @@ def _step(step: Step, period_s: float) -> StepOut:
         settling_s=response.settling_s,
         steady_error_n=response.steady_error,
     )
+
+
+def unit_out(slow: SlowSine) -> UnitOut:
+    """The unit as slow cycles show it, as it is told."""
+    asked = SineOut.model_validate(slow.sine)
+    return UnitOut.model_validate({"block": slow.block, "asked": asked, **slow.unit._asdict()})
 
 
 def _rainflow(asked: CountedCycles, applied: CountedCycles) -> RainflowOut:

@@ -33,6 +33,7 @@ IDS = (
     "sweep-1-100-hz",
     "time-history-gust",
     "unit-position-response",
+    "unit-slow-cycles",
 )
 LASTS_AT_MOST_S = dict.fromkeys(IDS, 60.0) | {"identification": 600.0}
 

@@ -21,6 +21,7 @@ class SlowCycles(NamedTuple):
     stiffness_n_m: float
     stiffness_std_n_m: float  # from cycle to cycle; NaN of a single one
     hysteresis_j: float  # energy lost in a cycle
+    hysteresis_std_j: float  # from cycle to cycle; NaN of a single one
     backlash_m: float
     cycles: int
 
@@ -55,20 +56,24 @@ def slow_cycles(force_n: Array, deformation_m: Array) -> SlowCycles:
     if len(force_n) == 0 or not force_n.min() < 0 < force_n.max():
         raise ValueError("slow cycles push and pull, and at least one is whole")
     slopes = np.array([_slope(f, x) for f, x in zip(force_n, deformation_m, strict=True)])
-    lost = np.abs([_area(f, x) for f, x in zip(force_n, deformation_m, strict=True)])
+    lost = np.array([_area(f, x) for f, x in zip(force_n, deformation_m, strict=True)])
     force, deformation = force_n.mean(axis=0), deformation_m.mean(axis=0)
     outer = OUTER * np.max(np.abs(force))
     push = np.polyfit(force[force > outer], deformation[force > outer], 1)
     pull = np.polyfit(force[force < -outer], deformation[force < -outer], 1)
     stiffness = 1 / slopes
-    spread = float(np.std(stiffness, ddof=1)) if len(slopes) > 1 else float("nan")
     return SlowCycles(
         float(1 / np.mean(slopes)),
-        spread,
-        float(np.mean(lost)),
+        _spread(stiffness),
+        abs(float(np.mean(lost))),  # of noise alone the sign differs from cycle to cycle
+        _spread(lost),
         float(push[1] - pull[1]),
         len(slopes),
     )
+
+
+def _spread(values: Array) -> float:
+    return float(np.std(values, ddof=1)) if len(values) > 1 else float("nan")
 
 
 def _slope(force_n: Array, deformation_m: Array) -> float:

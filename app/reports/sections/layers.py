@@ -27,6 +27,8 @@ def layers(subject: Subject) -> Section | None:
             items.append(_harmonics(fitted))
     if found.steps:
         items.append(_steps(found))
+    if found.unit:
+        items.append(_unit(found))
     if found.rainflow.applied_cycles > 1:
         items += [_rainflow(found.rainflow), _damage(found)]
     return Section("Layers, cycles and steps", tuple(items)) if items else None
@@ -126,6 +128,30 @@ def _step(step: StepOut) -> Row:
         quantity(step.steady_error_n, "N"),
     )
     return Row(cells)
+
+
+def _unit(found: RunAnalysis) -> Table:
+    """Stiffness in kN/mm, which is what people say it in."""
+    heads = ("Asked for", "Cycles", "Static stiffness ± σ", "Hysteresis ± σ", "Backlash")
+    columns = (Column("Block"), *(Column(head, number=True) for head in heads))
+    rows = tuple(
+        Row(
+            (
+                str(one.block + 1),
+                f"{quantity(one.asked.amplitude_n, 'N')} at {digits(one.asked.frequency_hz)} Hz",
+                f"{one.cycles:,}",
+                f"{_of(one.stiffness_n_m, 1e-6)} ± {_of(one.stiffness_std_n_m, 1e-6)} kN/mm",
+                f"{_of(one.hysteresis_j, 1.0)} ± {_of(one.hysteresis_std_j, 1.0)} J",
+                f"{_of(one.backlash_m, 1e6)} µm",
+            )
+        )
+        for one in found.unit
+    )
+    return Table("The unit under test, from slow cycles that push and pull", columns, rows)
+
+
+def _of(value: float | None, scale: float) -> str:
+    return digits(None if value is None else scale * value, 3)
 
 
 def _rainflow(found: RainflowOut) -> Table:

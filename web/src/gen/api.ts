@@ -1493,7 +1493,7 @@ export interface paths {
         post?: never;
         /**
          * Remove Export
-         * @description Give it up, or remove its file.
+         * @description Give it up, or remove its file: one's own, and an operator anybody's.
          */
         delete: operations["removeExport"];
         options?: never;
@@ -6426,9 +6426,11 @@ export interface components {
             /** Steps In All */
             steps_in_all: number;
             uncertainty: components["schemas"]["UncertaintyOut"];
+            /** Unit */
+            unit: components["schemas"]["UnitOut"][];
             /**
              * Version
-             * @default 1
+             * @default 2
              */
             version: number;
         };
@@ -7808,6 +7810,29 @@ export interface components {
             unit_highest_n: number;
             /** Unit Lowest N */
             unit_lowest_n: number;
+        };
+        /**
+         * UnitOut
+         * @description The unit under test as slow cycles that push and pull show it; deviations are from cycle to cycle.
+         *
+         *     `hysteresis_j` is the energy that it loses in a cycle, `backlash_m` its free play.
+         */
+        UnitOut: {
+            asked: components["schemas"]["SineOut"];
+            /** Backlash M */
+            backlash_m: number | null;
+            /** Block */
+            block: number;
+            /** Cycles */
+            cycles: number;
+            /** Hysteresis J */
+            hysteresis_j: number | null;
+            /** Hysteresis Std J */
+            hysteresis_std_j: number | null;
+            /** Stiffness N M */
+            stiffness_n_m: number | null;
+            /** Stiffness Std N M */
+            stiffness_std_n_m: number | null;
         };
         /**
          * UnitUnderTest

@@ -87,3 +87,15 @@ def test_what_cannot_be_told_is_refused(of_force: Path, arguments: list[str], sa
     result = run(of_force, *arguments)
     assert result.exit_code == Exit.BAD_INPUT
     assert said in " ".join(result.stderr.split())
+
+
+def test_the_units_static_stiffness_comes_from_slow_cycles(of_force: Path, tmp_path: Path) -> None:
+    slow = {"kind": "harmonic", "amplitude_n": 10_000.0, "frequency_hz": 2.0, "cycles": 5}
+    path = recorded_file(tmp_path / "run.parquet", make_test([slow]))
+    result = CliRunner().invoke(cli, ["analyse", "unit", str(path), "--json"])
+    (unit,) = json.loads(result.stdout)["unit"]
+    assert unit["stiffness_n_m"] == pytest.approx(load_rig().unit.k_tra, rel=0.02)
+    assert "kN/mm" in CliRunner().invoke(cli, ["analyse", "unit", str(path)]).stdout
+    refused = CliRunner().invoke(cli, ["analyse", "unit", str(of_force)])
+    assert refused.exit_code == Exit.BAD_INPUT
+    assert "has no slow cycles" in refused.stderr

@@ -107,6 +107,23 @@ def test_the_facts_are_in_it(database: Database, sources: Sources, run_id: int) 
         assert heading in rest, heading
 
 
+def test_it_has_every_transfer_the_margins_and_the_units_stiffness(
+    database: Database, sources: Sources
+) -> None:
+    stepped = {"kind": "frequency_response", "amplitudes_n": [3000], "frequencies_hz": [20, 40, 60]}
+    slow = {"kind": "harmonic", "amplitude_n": 10_000, "frequency_hz": 2, "cycles": 5}
+    run_id = file_run(database, sources.runs_dir, [stepped, slow])
+    told = " ".join(" ".join(text_of(database, sources, run_id)).split())
+    for fact in (
+        "Dynamic stiffness of the unit",
+        "Admittance of the unit",
+        "Margins from the measured loop",
+        "The unit under test, from slow cycles",
+        "Static stiffness",
+    ):
+        assert fact in told, fact
+
+
 def test_the_brief_one_has_two_pages_at_most(
     database: Database, sources: Sources, run_id: int
 ) -> None:

@@ -106,3 +106,22 @@ def test_rainflow_of_the_setpoint_is_what_the_test_asks_for(tmp_path: Path) -> N
     ratio = (np.array([c.range_n.mean for c in found.layers]) / (8000, 2000)) ** 5
     damage = next(d for d in found.damage if d.exponent == 5)
     assert damage.ratio == pytest.approx(ratio[0], rel=0.25)  # of the large cycles, all but wholly
+
+
+def test_slow_cycles_tell_the_stiffness_of_the_unit(tmp_path: Path) -> None:
+    from app.documents.writing import to_data
+    from bench.recorded import make_test
+    from rtcore.rig.parameters import load_rig, rig_from
+    from tests.recorded_runs import recorded
+
+    slow = {"kind": "harmonic", "amplitude_n": 10_000.0, "frequency_hz": 2.0, "cycles": 5}
+    blocks = [slow, SINE]
+    folder = recorded(tmp_path, 1, played(blocks, 3.5))
+    subject = Subject(
+        folder, to_data(make_test(blocks)), rig_from({}).model_dump(mode="json"), PERIOD_S, None
+    )
+    (unit,) = analysis_of(subject, lambda share: None).unit
+    assert (unit.block, unit.asked.frequency_hz, unit.cycles) == (0, 2.0, 5)
+    assert unit.stiffness_n_m == pytest.approx(load_rig().unit.k_tra, rel=0.02)
+    assert unit.backlash_m is not None
+    assert unit.hysteresis_j is not None

@@ -61,11 +61,32 @@ export const layerTable = ({ layers }: Analysis): Table => ({
   })),
 });
 
-function asked({ block, asked: sine }: Analysis["layers"][number]): string {
+function asked({ block, asked: sine }: Pick<Analysis["layers"][number], "block" | "asked">): string {
   if (!sine) return `Block ${block + 1}, sweep`;
   const hz = Number(sine.frequency_hz.toPrecision(4));
   return `Block ${block + 1}, ${n(sine.amplitude_n)}\u00a0kN at ${hz}\u00a0Hz`;
 }
+
+const scaled = (value: Number, scale: number): string => (value == null ? NOTHING : Number((scale * value).toPrecision(3)).toString());
+
+/** One row a slow sine: the unit under test as it gives way to a force that pushes and pulls. */
+export const unitTable = ({ unit }: Analysis): Table => ({
+  columns: [
+    ...[column("Cycles"), column("Static stiffness", "kN/mm"), column("± σ", "kN/mm")],
+    ...[column("Hysteresis", "J"), column("± σ", "J"), column("Backlash", "µm")],
+  ],
+  rows: unit.map((one) => ({
+    head: asked(one),
+    cells: [
+      count(one.cycles),
+      scaled(one.stiffness_n_m, 1e-6),
+      scaled(one.stiffness_std_n_m, 1e-6),
+      scaled(one.hysteresis_j, 1),
+      scaled(one.hysteresis_std_j, 1),
+      scaled(one.backlash_m, 1e6),
+    ],
+  })),
+});
 
 /** The error budget, the largest first. */
 export const budgetTable = ({ uncertainty }: Analysis): Table => ({
