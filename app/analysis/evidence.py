@@ -17,11 +17,12 @@ class Kind(Enum):
 
 
 class Sine(NamedTuple):
-    """A harmonic setpoint in full swing."""
+    """A harmonic setpoint in full swing; `asked_n` is the amplitude from which it may have been backed off."""
 
     frequency_hz: float
     amplitude_n: float
     mean_n: float
+    asked_n: float | None = None
 
 
 class Stretch(NamedTuple):

@@ -14,7 +14,7 @@ from app.analysis.response.transfers import EVERY, MOTION_TRANSFERS
 from app.commands.output import Exit, print_json, print_refusal, progress_bar, text_console
 from app.commands.printed import Printed
 from app.conducting.found import Found
-from app.conducting.responding import NEEDS, Responding, responds, responses_in
+from app.conducting.responding import NEEDS, Responding, responds
 from app.definitions.definition import Definition
 from app.definitions.reading import definition_from
 from app.documents.messages import nearest
@@ -96,7 +96,7 @@ def _read(path: Path, asked: Asked) -> _Read | Refusal:
     if name == LOOP:
         controller = run.description["controller"]
         points = loop_points(points, definition, controller, run.period_s, asked.load_hz)
-    series = series_of(points, name, responses_in(definition))
+    series = series_of(points, name)
     if name == LOOP:
         return _Read(name, without_extremes(series), loop_margins(series))
     return _Read(name, series, [])

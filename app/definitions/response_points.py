@@ -31,6 +31,11 @@ class PlannedPoint:
     slower_hz: float
 
     @property
+    def asked_n(self) -> float:
+        """The amplitude of its series, before it was halved."""
+        return self.sine.amplitude * float(2**self.level)
+
+    @property
     def between(self) -> bool:
         """Whether it is only played where the response bends."""
         return self.rank > 0

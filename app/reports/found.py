@@ -78,7 +78,7 @@ class Found:
     ) -> ResponseOut:
         if name == LOOP:
             points = loop_points(points, self.definition, self.controller, self.period_s)
-        series = series_of(points, name, asked)
+        series = series_of(points, name)
         return ResponseOut(
             transfer=name,
             unit=EVERY[name].unit,

@@ -11,7 +11,7 @@ from app.conducting.found import Found
 from app.recording.whole_file import whole_file
 
 NAME = "frequency-response.json"
-VERSION = 2
+VERSION = 3
 
 
 def write_points(folder: Path, points: Sequence[Found]) -> None:

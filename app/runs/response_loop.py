@@ -70,9 +70,9 @@ def available_of(points: Iterable[Found]) -> list[TransferName]:
     return [cast(TransferName, name) for name in EVERY if name in there] or ["force"]
 
 
-def _key(found: Found) -> tuple[str, int, float, float, float]:
-    point = found.point
-    return found.method, point.block, point.amplitude_n, point.mean_n, point.frequency_hz
+def _key(found: Found) -> tuple[str, int, float, float | None, float, float]:
+    p = found.point
+    return found.method, p.block, p.amplitude_n, p.asked_n, p.mean_n, p.frequency_hz
 
 
 def _looped(

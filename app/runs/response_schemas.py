@@ -21,12 +21,14 @@ TransferName = Literal[
 class ResponsePointOut(BaseModel):
     """A point with its 95 % intervals; `gain` in the transfer's unit, `gain_db` of one without a unit.
 
-    `amplitude_m` is that of the motion, null where it is the force that was led. Bounds are null where there are
+    `asked_n` is the amplitude of its series, of which it may have been backed off to `amplitude_n`. `amplitude_m` is
+    that of the motion, null where it is the force that was led. Bounds are null where there are
     none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
     """
 
     frequency_hz: float
     amplitude_n: float
+    asked_n: float
     amplitude_m: float | None
     mean_n: float
     gain: float

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import cast
 
 from app.analysis.response.extremes import Extreme, find_extremes
+from app.analysis.response.point import ResponsePoint
 from app.analysis.response.transfers import EVERY
 from app.conducting.found import Found
 from app.definitions.responses import FrequencyResponse
@@ -20,8 +21,6 @@ from app.runs.response_schemas import (
 )
 
 NO_UNIT = "1"
-_HALVINGS = 7  # levels of a point that was backed off
-_SAME = 1e-6
 
 
 def point_out(found: Found) -> ResponsePointOut:
@@ -32,6 +31,7 @@ def point_out(found: Found) -> ResponsePointOut:
     return ResponsePointOut(
         frequency_hz=point.frequency_hz,
         amplitude_n=point.amplitude_n,
+        asked_n=_asked_n(point),
         amplitude_m=found.amplitude_m,
         mean_n=point.mean_n,
         gain=point.gain,
@@ -57,21 +57,16 @@ def frame_of(run_id: int, found: Found) -> ResponseFrame:
     return ResponseFrame(run=run_id, block=point.block, transfer=transfer, point=point_out(found))
 
 
-def series_of(
-    points: Iterable[Found], transfer: str, asked: Sequence[FrequencyResponse]
-) -> list[ResponseSeries]:
+def series_of(points: Iterable[Found], transfer: str) -> list[ResponseSeries]:
     """The points of a transfer by block, amplitude and mean, each in the order of frequency.
 
-    `asked` are the frequency responses of the test: a point that was backed off belongs to the amplitude
-    that was asked for.
+    A point that was backed off belongs to the amplitude that was asked for.
     """
-    wanted = [amplitude for one in asked for amplitude in one.amplitudes_n]
     groups: dict[tuple[int, str, float, float], list[Found]] = {}
     for found in points:
         point = found.point
         if point.transfer == transfer and math.isfinite(point.gain):
-            amplitude_n = _asked_for(point.amplitude_n, wanted)
-            key = point.block, found.method, amplitude_n, point.mean_n
+            key = point.block, found.method, _asked_n(point), point.mean_n
             groups.setdefault(key, []).append(found)
     return [_series(key, group) for key, group in groups.items()]
 
@@ -109,6 +104,10 @@ def _extremes(ordered: Sequence[Found]) -> ExtremesOut:
     )
 
 
+def _asked_n(point: ResponsePoint) -> float:
+    return point.amplitude_n if point.asked_n is None else point.asked_n
+
+
 def _has_no_unit(transfer: str) -> bool:
     return EVERY[transfer].unit == NO_UNIT
 
@@ -117,12 +116,3 @@ def _peak(extreme: Extreme | None) -> PeakOut | None:
     if extreme is None:
         return None
     return PeakOut(frequency_hz=extreme.frequency_hz, gain_db=extreme.gain_db)
-
-
-def _asked_for(amplitude_n: float, wanted: Sequence[float]) -> float:
-    """The amplitude that a point was meant to have: its own, or that of which it is a half, a quarter, …"""
-    for halvings in range(_HALVINGS):
-        for asked in wanted:
-            if abs(asked / 2**halvings - amplitude_n) <= _SAME * amplitude_n:
-                return asked
-    return amplitude_n

@@ -101,7 +101,7 @@ class Responses:
             controller = run.made_with["controller"]
             period_s = run.subject.period_s
             there = loop_points(points, run.definition, controller, period_s, load_hz)
-        series = series_of(there, transfer, run.asked)
+        series = series_of(there, transfer)
         return ResponseOut(
             transfer=transfer,
             unit=EVERY[transfer].unit,

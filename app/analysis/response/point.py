@@ -13,6 +13,7 @@ class Interval(NamedTuple):
 class ResponsePoint(NamedTuple):
     """A transfer at one frequency, amplitude and mean.
 
+    `asked_n` is the amplitude of the series that it was measured for, where it may have been backed off.
     `gain` is in the transfer's unit, `phase_deg` negative where the output lags. `coherence` is 0…1: the
     share of the output that the input explains, cycle by cycle. An interval of less than two cycles has no
     bounds: its end is inf, its phase a whole turn. `distortion_percent` is the output's harmonics in % of its
@@ -32,3 +33,4 @@ class ResponsePoint(NamedTuple):
     distortion_percent: float | None
     cycles: int
     settled: bool
+    asked_n: float | None = None

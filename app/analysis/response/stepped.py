@@ -32,7 +32,8 @@ class SteppedSine:
     """Takes a run part after part; gives the points so far.
 
     The `Walk` that gives the parts needs `also=channels_of(transfers.values())`. Memory grows with the
-    points, not with the ticks. A sine that a block plays several times is one point. With a `rig`,
+    points, not with the ticks. A sine that a block plays several times is one point, one for each
+    amplitude that it was backed off from. With a `rig`,
     dynamic stiffness and admittance of the unit under test are told too.
     """
 
@@ -123,4 +124,5 @@ def _point(transfer: Transfer, key: Key, fit: Fit, estimate: Estimate) -> Respon
         distortion_percent=fit.distortion_percent(transfer.output) if measured else None,
         cycles=fit.whole_cycles,
         settled=estimate.steady,
+        asked_n=sine.asked_n,
     )

@@ -6037,7 +6037,8 @@ export interface components {
          * ResponsePointOut
          * @description A point with its 95 % intervals; `gain` in the transfer's unit, `gain_db` of one without a unit.
          *
-         *     `amplitude_m` is that of the motion, null where it is the force that was led. Bounds are null where there are
+         *     `asked_n` is the amplitude of its series, of which it may have been backed off to `amplitude_n`. `amplitude_m` is
+         *     that of the motion, null where it is the force that was led. Bounds are null where there are
          *     none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
          */
         ResponsePointOut: {
@@ -6045,6 +6046,8 @@ export interface components {
             amplitude_m: number | null;
             /** Amplitude N */
             amplitude_n: number;
+            /** Asked N */
+            asked_n: number;
             /** Coherence */
             coherence: number;
             /** Cycles */

@@ -7,9 +7,11 @@ import pytest
 
 from app.analysis.response.point import ResponsePoint
 from app.conducting.conductor import is_sure
+from app.conducting.found import Found
 from app.definitions.adaptive import Confidence
 from app.definitions.limits import RIG
 from app.definitions.outline import outline
+from app.runs.response_series import series_of
 from tests.unit.app.conducting.responses import Played, play, played, response_test
 
 SURE = {"confidence": {"gain_db": 0.05, "phase_deg": 0.5}}
@@ -104,6 +106,18 @@ def test_it_backs_the_level_off_where_the_valve_has_too_much_to_do() -> None:
     counted = found.records["program_tick"] >= 0
     measured = np.abs(found.records["valve_command"][counted])
     assert np.quantile(measured, 0.95) <= limit
+
+
+def test_what_was_backed_off_is_no_part_of_the_series_that_was_meant_to_be_as_small() -> None:
+    """At 40 Hz 8 kN come down to 4 kN, which are asked for too: two points, each of its own cycles alone."""
+    asked = {"amplitudes_n": [8000.0, 4000.0], "frequencies_hz": [10.0, 40.0], "measure_cycles": 10}
+    limit = 0.75 * float(np.abs(play(response_test(**asked)).records["valve_command"]).max())
+    found = play(response_test(**asked, auto_level={"valve_at_most": limit}))
+    at_40 = [p for p in found.points if p.frequency_hz == 40.0 and p.amplitude_n == 4000.0]
+    assert [(p.asked_n, p.cycles) for p in at_40] == [(8000.0, 10), (4000.0, 10)]
+    of_40 = [p for p in found.points if p.frequency_hz == 40.0]
+    series = series_of([Found("stepped_sine", p) for p in of_40], "force")
+    assert [(one.amplitude_n, len(one.points)) for one in series] == [(8000.0, 1), (4000.0, 1)]
 
 
 def test_an_interval_of_few_cycles_is_not_believed() -> None:

@@ -60,7 +60,7 @@ def test_it_is_the_servo_s_to_100_hz_with_load_off_and_on() -> None:
     percent, degrees = errors(found)
     assert percent < 1
     assert degrees < 1
-    off, on = series_of(found, "position", [])
+    off, on = series_of(found, "position")
     assert (off.block, off.mean_n, off.amplitude_m) == (0, 0.0, 0.001)
     assert (on.block, on.mean_n, on.amplitude_m) == (1, 10_000.0, 0.001)
     assert [p.frequency_hz for p in on.points] == list(definition.motion[1].frequencies_hz)  # type: ignore[union-attr]

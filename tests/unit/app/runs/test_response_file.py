@@ -36,7 +36,7 @@ def test_points_are_read_as_they_were_written(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"[]", b'{"version": 99, "points": []}', b'{"version": 2, "points": [{}]}']
+    "content", [b"", b"[]", b'{"version": 99, "points": []}', b'{"version": 3, "points": [{}]}']
 )
 def test_what_is_no_such_file_counts_as_not_there(tmp_path: Path, content: bytes) -> None:
     assert read_points(tmp_path) is None
@@ -52,21 +52,22 @@ def test_a_point_without_bounds_is_told_with_nulls() -> None:
 
 
 def test_a_series_is_in_the_order_of_frequency_with_its_extremes() -> None:
-    asked = FrequencyResponse(amplitudes_n=(1000.0,), frequencies_hz=(10.0, 20.0))
-    (series,) = series_of(POINTS, "force", [asked])
+    (series,) = series_of(POINTS, "force")
     assert [point.frequency_hz for point in series.points] == [10.0, 20.0, 40.0, 80.0]
     assert series.extremes.peak is not None
     assert 30.0 < series.extremes.peak.frequency_hz < 45.0
     assert series.extremes.minus_90_deg_hz == pytest.approx(57, abs=2)
-    assert series_of(POINTS, "plant", [asked]) == []
+    assert series_of(POINTS, "plant") == []
 
 
 def test_a_point_that_was_backed_off_belongs_to_what_was_asked_for() -> None:
-    asked = FrequencyResponse(amplitudes_n=(1000.0,), frequencies_hz=(10.0, 20.0))
-    points = [POINTS[0], found(20.0, 1.2, -30.0, amplitude_n=250.0)]
-    (series,) = series_of(points, "force", [asked])
-    assert series.amplitude_n == 1000.0
+    backed_off = found(20.0, 1.2, -30.0, amplitude_n=250.0)
+    backed_off = backed_off._replace(point=backed_off.point._replace(asked_n=1000.0))
+    points = [POINTS[0], backed_off, found(20.0, 1.2, -30.0, amplitude_n=250.0)]
+    series, as_small = series_of(points, "force")
+    assert (series.amplitude_n, as_small.amplitude_n) == (1000.0, 250.0)
     assert [point.amplitude_n for point in series.points] == [1000.0, 250.0]
+    assert len(as_small.points) == 1
 
 
 def test_bands_are_those_of_the_test() -> None:

@@ -3,8 +3,6 @@
 import type { FrequencyResponse, ResponseFrame, ResponsePoint, ResponseSeries } from "./types";
 
 const SAME = 1e-6;
-/** A point that was too high may have been played at a half, a quarter … of what was asked for. */
-const HALVINGS = 7;
 
 /** Takes a point in; the one that it is newer than gives way. Of another transfer it changes nothing. */
 export function merged(response: FrequencyResponse, { block, transfer, point }: ResponseFrame): FrequencyResponse {
@@ -17,16 +15,14 @@ export function merged(response: FrequencyResponse, { block, transfer, point }: 
   return { ...response, series };
 }
 
-function belongs({ amplitude_n, mean_n }: ResponseSeries, point: ResponsePoint): boolean {
-  if (Math.abs(mean_n - point.mean_n) > SAME * Math.max(1, Math.abs(mean_n))) return false;
-  return Array.from({ length: HALVINGS }, (_, n) => amplitude_n / 2 ** n).some(
-    (amplitude) => Math.abs(amplitude - point.amplitude_n) <= SAME * amplitude_n,
-  );
-}
+/** A point that was too high is played smaller, and stays one of the amplitude that was asked for. */
+const belongs = ({ amplitude_n, mean_n }: ResponseSeries, point: ResponsePoint): boolean =>
+  Math.abs(mean_n - point.mean_n) <= SAME * Math.max(1, Math.abs(mean_n)) &&
+  Math.abs(amplitude_n - point.asked_n) <= SAME * amplitude_n;
 
 const begun = (block: number, point: ResponsePoint): ResponseSeries => ({
   ...{ block, method: point.amplitude_m === null ? "stepped_sine" : "multisine", amplitude_m: point.amplitude_m },
-  ...{ amplitude_n: point.amplitude_n, mean_n: point.mean_n },
+  ...{ amplitude_n: point.asked_n, mean_n: point.mean_n },
   points: [point],
   extremes: { peak: null, dip: null, minus_3_db_hz: null, minus_90_deg_hz: null },
 });

@@ -4,7 +4,7 @@ import { merged } from "./merging";
 import type { FrequencyResponse, ResponseFrame, ResponsePoint, ResponseSeries } from "./types";
 
 const point = (frequency_hz: number, more: Partial<ResponsePoint> = {}): ResponsePoint => ({
-  ...{ frequency_hz, amplitude_n: 2000, amplitude_m: null, mean_n: 0, gain: 1, gain_db: 0, phase_deg: 0, gain_low: 0.9, gain_high: 1.1 },
+  ...{ frequency_hz, amplitude_n: 2000, asked_n: more.amplitude_n ?? 2000, amplitude_m: null, mean_n: 0, gain: 1, gain_db: 0, phase_deg: 0, gain_low: 0.9, gain_high: 1.1 },
   ...{ phase_low_deg: -1, phase_high_deg: 1, coherence: 0.99, distortion_percent: null, noise_std: null },
   ...{ nonlinear_std: null, cycles: 10, settled: true },
   ...more,
@@ -36,9 +36,9 @@ describe("a live point", () => {
     expect(counted(after)).toEqual({ points: 1, moving: 0 });
   });
   it("that was backed off belongs to the amplitude that was asked for", () => {
-    const before = response([series(8000), series(2000)]);
-    const after = merged(before, frame(point(50, { amplitude_n: 4000 })));
-    expect(after.series[0]!.points).toHaveLength(1);
+    const before = response([series(4000), series(8000)]);
+    const after = merged(before, frame(point(50, { amplitude_n: 4000, asked_n: 8000 })));
+    expect(after.series.map(({ points }) => points.length)).toEqual([0, 1]);
   });
   it("of another amplitude, mean or block begins a series", () => {
     const before = response([series(2000)]);
