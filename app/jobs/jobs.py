@@ -64,7 +64,7 @@ class Job(Generic[T]):
 
     def why_not(self, sentence: str, code: Code) -> Refusal:
         """Why nothing came of it; `code` says so where its process lived to the end."""
-        return Refusal(Code.BROKE_OFF if self.broke_off else code, f"{sentence}: {self.reason}")
+        return Refusal(Code.BROKE_OFF if self.broke_off else code, f"{sentence}. {self.reason}")
 
 
 class Jobs(Generic[T]):
