@@ -3,6 +3,8 @@
 from collections.abc import Callable, Sequence
 from datetime import UTC, datetime
 
+from sqlalchemy.orm import Session
+
 from app.audit.entry import Entry
 from app.audit.record import record
 from app.db import Database
@@ -58,14 +60,13 @@ class Book:
         for number in numbers:
             self.ended(number, State.INTERRUPTED, reason)
 
-    def adopted(self, number: int, revision: int, why: str) -> None:
-        """Its model came into force."""
-        with self._database.writing() as session:
-            row = repository.to_change(session, number)
-            if row is not None:
-                row.adopted_revision = revision
-            told = {"rig_configuration": revision}
-            record(session, Entry("identifications.adopt", _name(number), why, after=told))
+    def adopted(self, session: Session, number: int, revision: int, why: str) -> None:
+        """Its model comes into force, in the transaction of the revision itself."""
+        row = repository.to_change(session, number)
+        if row is not None:
+            row.adopted_revision = revision
+        told = {"rig_configuration": revision}
+        record(session, Entry("identifications.adopt", _name(number), why, after=told))
 
     def remove(self, number: int) -> Refusal | None:
         """Forget one that has ended and whose model was not adopted."""

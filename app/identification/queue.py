@@ -7,6 +7,9 @@ import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
+from functools import partial
+
+from sqlalchemy.exc import OperationalError
 
 from app.errors import Refusal
 from app.identification.book import Book
@@ -14,6 +17,7 @@ from app.identification.models import State
 from app.identification.schemas import Identified
 from app.jobs.apart import GivenUp, Report, WorkFailed
 
+AGAIN_S = 1.0  # after a write that could not be made
 LEAST_SHARE = 0.02  # before that nothing can be said of the time that is left
 GIVEN_UP = "It was given up"
 ENDED = "The console was ended in the middle of it: start it again"
@@ -65,9 +69,11 @@ class Queue:
         return self._turns.get(number)
 
     def give_up(self, number: int) -> None:
-        """Nobody wants it any more."""
+        """Nobody wants it any more. One that is under way in the book and has no turn ends there and then."""
         if (turn := self._turns.get(number)) is not None:
             turn.unwanted.set()
+        else:
+            self._book.ended(number, State.INTERRUPTED, ENDED)
 
     def close(self) -> None:
         """Give all of them up."""
@@ -78,26 +84,45 @@ class Queue:
 
     def _carry_out(self, number: int, turn: Turn, work: Work) -> None:
         try:
-            self._work(number, turn, work)
-        except GivenUp:
-            ending = self._ending.is_set()
-            state = State.INTERRUPTED if ending else State.CANCELLED
-            self._book.ended(number, state, ENDED if ending else GIVEN_UP)
-        except WorkFailed as error:
-            self._book.ended(number, State.FAILED, str(error))
-        except Exception as error:
-            _log.exception("identification %d", number)
-            self._book.ended(number, State.FAILED, str(error))
+            self._write(number, self._come_of(number, turn, work))
         finally:
             del self._turns[number]
 
-    def _work(self, number: int, turn: Turn, work: Work) -> None:
+    def _come_of(self, number: int, turn: Turn, work: Work) -> Callable[[], None]:
+        """Work on it; what is to be written down of its end."""
+        try:
+            return self._work(number, turn, work)
+        except GivenUp:
+            ending = self._ending.is_set()
+            state = State.INTERRUPTED if ending else State.CANCELLED
+            return partial(self._book.ended, number, state, ENDED if ending else GIVEN_UP)
+        except WorkFailed as error:
+            return partial(self._book.ended, number, State.FAILED, str(error))
+        except Exception as error:
+            _log.exception("identification %d", number)
+            return partial(self._book.ended, number, State.FAILED, str(error))
+
+    def _work(self, number: int, turn: Turn, work: Work) -> Callable[[], None]:
         if turn.unwanted.is_set():
             raise GivenUp
         turn.began_s = time.monotonic()
-        self._book.begun(number)
+        self._write(number, partial(self._book.begun, number))
         found = work(turn.report, turn.unwanted)
         if isinstance(found, Refusal):
-            self._book.ended(number, State.FAILED, found.detail)
-        else:
-            self._book.done(number, found)
+            return partial(self._book.ended, number, State.FAILED, found.detail)
+        return partial(self._book.done, number, found)
+
+    def _write(self, number: int, write: Callable[[], None]) -> None:
+        """Write it down, again and again where the database cannot be written to; it has taken minutes to find.
+
+        Where the console ends before that, the next start says that it was interrupted.
+        """
+        while True:
+            last = self._ending.is_set()
+            try:
+                return write()
+            except OperationalError as error:
+                _log.warning("identification %d cannot be written down yet: %s", number, error)
+            if last:
+                return
+            self._ending.wait(AGAIN_S)

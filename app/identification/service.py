@@ -119,7 +119,8 @@ class Identifications:
 
     def remove(self, number: int) -> Refusal | None:
         """Forget one that has ended."""
-        return self._book.remove(number)
+        with self._adopting:
+            return self._book.remove(number)
 
     def adopt(
         self, who: Principal, number: int, asked: AdoptRequest
@@ -141,11 +142,17 @@ class Identifications:
         if isinstance(lease, Refusal):
             return lease
         document = now.document.model_copy(update={"model": model})
-        made = self._configurations.change(Wanted(document, asked.why, now.number, who.name, lease))
-        if isinstance(made, Refusal):
-            return made
-        self._book.adopted(number, made.number, asked.why)
-        return None
+        made = self._configurations.change(
+            Wanted(
+                document,
+                asked.why,
+                now.number,
+                who.name,
+                lease,
+                also=lambda session, made: self._book.adopted(session, number, made, asked.why),
+            )
+        )
+        return made if isinstance(made, Refusal) else None
 
     def _period_s(self, run_ids: Sequence[int]) -> float | Refusal:
         """Of runs that are over and have samples, all at one rate."""

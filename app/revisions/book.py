@@ -108,7 +108,7 @@ class RevisionBook(Generic[D]):
             if wanted.based_on != now.number:
                 return conflict(self._kind, now, wanted.based_on)
             if document == now.document:
-                return now
+                return self._as_it_is(now, wanted)
             refusal = self._loop.adopt(document, wanted.lease)
             if refusal is not None:
                 return refusal
@@ -127,7 +127,17 @@ class RevisionBook(Generic[D]):
             newest = repository.newest(session, self._kind.row)
             number = 1 if newest is None else newest.number + 1
             by = (wanted.author, wanted.why)
-            return self._store(session, number, document, by, self._in_force.document)
+            made = self._store(session, number, document, by, self._in_force.document)
+            if wanted.also is not None:
+                wanted.also(session, made.number)
+            return made
+
+    def _as_it_is(self, now: Revision[D], wanted: Wanted[D]) -> Revision[D]:
+        """What is in force already makes no revision."""
+        if wanted.also is not None:
+            with self._database.writing() as session:
+                wanted.also(session, now.number)
+        return now
 
     def _give_back(self, before: D) -> None:
         """What nobody has written down does not stay in force."""

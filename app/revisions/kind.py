@@ -6,6 +6,7 @@ from datetime import datetime
 from typing import Any, Generic, Protocol, TypeVar
 
 from pydantic import BaseModel
+from sqlalchemy.orm import Session
 
 from app.documents.writing import to_data
 from app.errors import Refusal
@@ -52,13 +53,17 @@ class Revision(Generic[D]):
 
 @dataclass(frozen=True)
 class Wanted(Generic[D]):
-    """A document that somebody wants in force, on top of the revision that it was made from."""
+    """A document that somebody wants in force, on top of the revision that it was made from.
+
+    `also` is written down in the very transaction of the revision, whose number it is told: both or neither.
+    """
 
     document: D
     why: str
     based_on: int
     author: str
     lease: int | None = None
+    also: Callable[[Session, int], None] | None = None
 
 
 @dataclass(frozen=True)

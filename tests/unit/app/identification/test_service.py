@@ -1,5 +1,6 @@
 """Identifications as a console has them: entered, worked on apart, kept, adopted, given up."""
 
+import sqlite3
 from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
@@ -7,14 +8,18 @@ from threading import Lock
 from typing import Any
 
 import pytest
+from sqlalchemy.exc import OperationalError
 
 from app.access.principal import Principal, Role
 from app.audit import repository as audit
 from app.audit.sought import Sought
 from app.db import Database
 from app.errors import Code, Refusal
+from app.identification import queue
+from app.identification.book import Book
 from app.identification.models import Identification, State
 from app.identification.requests import AdoptRequest, IdentificationOut, IdentificationRequest
+from app.identification.schemas import Identified
 from app.identification.service import CRASHED, Identifications
 from app.recording.columns import as_batch
 from app.recording.files import parquet_path
@@ -229,6 +234,102 @@ def test_a_model_that_has_changed_since_is_not_written_over(
     assert isinstance(refused, Refusal)
     assert refused.code is Code.EDIT_CONFLICT
     assert "identify again" in refused.detail
+
+
+def result() -> dict[str, Any]:
+    """That the unit is stiffer by a twentieth."""
+    before = load_rig().unit.k_tra
+    fitted = {
+        "path": "unit.k_tra",
+        "title": "k",
+        "unit": "N/m",
+        "group": "unit",
+        "before": before,
+        "after": 1.05 * before,
+        "low": before,
+        "high": 1.1 * before,
+        "half_percent": 5,
+        "at_bound": False,
+        "determined": True,
+        "entangled": None,
+    }
+    return {
+        "parameters": [fitted],
+        "correlation": [[1]],
+        "residuals": [],
+        "force_zeros_n": [],
+        "goodness": {"before_percent": None, "after_percent": None, "windows": 1},
+        "windows": [],
+        "iterations": 1,
+        "settled": True,
+        "took_s": 1,
+        "notes": [],
+    }
+
+
+def test_an_adoption_that_cannot_be_written_down_leaves_the_model_as_it_was(
+    identifications: Identifications,
+    configurations: RigConfigurations,
+    database: Database,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    number = stored(database, State.DONE, result=result())
+    before = configurations.in_force
+
+    def locked(*told: object) -> None:
+        raise OSError("database is locked")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Book, "adopted", locked)
+        with pytest.raises(OSError, match="locked"):
+            identifications.adopt(ENGINEER, number, AdoptRequest(why=WHY))
+    assert configurations.in_force == before
+    assert isinstance(configurations.revision(before.number + 1), Refusal)
+    adopted = identifications.adopt(ENGINEER, number, AdoptRequest(why=WHY))
+    assert isinstance(adopted, IdentificationOut), adopted
+    assert adopted.adopted_revision == configurations.in_force.number == before.number + 1
+    assert isinstance(identifications.remove(number), Refusal)
+
+
+def operational() -> OperationalError:
+    return OperationalError("UPDATE", {}, sqlite3.OperationalError("database is locked"))
+
+
+def test_an_end_that_finds_the_database_locked_is_written_down_once_it_is_not(
+    database: Database, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    book = Book(database)
+    number = stored(database, State.WAITING)
+    found = Identified.model_validate(result())
+    tries: list[int] = []
+
+    def locked_twice(self: Book, number: int, found: Identified) -> None:
+        tries.append(number)
+        if len(tries) < 3:
+            raise operational()
+        done(self, number, found)
+
+    done = Book.done
+    monkeypatch.setattr(Book, "done", locked_twice)
+    monkeypatch.setattr(queue, "AGAIN_S", 0.0)
+    working = queue.Queue(book)
+    working.put(number, lambda report, unwanted: found)
+    wait_for(lambda: working.turn(number) is None or None, "the end of its turn")
+    row = book.get(number)
+    assert isinstance(row, Identification)
+    assert (row.state, len(tries)) == (State.DONE, 3)
+    assert row.result is not None
+    working.close()
+
+
+def test_one_under_way_that_has_no_turn_ends_when_it_is_given_up(
+    identifications: Identifications, database: Database
+) -> None:
+    number = stored(database, State.RUNNING)
+    found = identifications.cancel(number)
+    assert isinstance(found, IdentificationOut)
+    assert found.state is State.INTERRUPTED
+    assert identifications.remove(number) is None
 
 
 def test_every_parameter_is_told_with_its_value(identifications: Identifications) -> None:
