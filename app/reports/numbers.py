@@ -41,7 +41,7 @@ def scale_of(unit: str) -> float:
 
 
 def digits(value: float | None, places: int = 4) -> str:
-    """Four significant digits, never in powers of ten where a reader can do without."""
+    """So many significant digits, never in powers of ten where a reader can do without."""
     if value is None:
         return NOTHING
     if not math.isfinite(value):
@@ -50,9 +50,9 @@ def digits(value: float | None, places: int = 4) -> str:
         return "0"
     before = math.floor(math.log10(abs(value))) + 1
     if before < -4:
-        return _minus(f"{value:.2e}")
-    written = f"{value:,.{max(0, places - max(before, 0))}f}"
-    return _minus(written.rstrip("0").rstrip(".") if "." in written else written)
+        mantissa, power = f"{value:.{places - 1}e}".split("e")
+        return _minus(f"{_short(mantissa)}e{power}")
+    return _minus(_short(f"{value:,.{max(0, places - before)}f}"))
 
 
 def quantity(value: float | None, unit: str) -> str:
@@ -93,6 +93,11 @@ def spoken(name: str) -> str:
 def moment(at: datetime | None) -> str:
     """`2026-11-22 14:05:09 UTC`."""
     return NOTHING if at is None else at.strftime("%Y-%m-%d %H:%M:%S UTC")
+
+
+def _short(written: str) -> str:
+    """Without zeros at the end that say nothing."""
+    return written.rstrip("0").rstrip(".") if "." in written else written
 
 
 def _minus(written: str) -> str:

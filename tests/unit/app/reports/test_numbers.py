@@ -42,8 +42,24 @@ def test_durations_are_told_as_people_say_them(seconds: float, written: str) -> 
 
 def test_digits_are_four_and_never_a_trailing_zero() -> None:
     assert [digits(v) for v in (123456.0, 12.3456, 0.5, 0.0, 1e-9)] == [
-        *("123,456", "12.35", "0.5", "0", "1.00e−09")
+        *("123,456", "12.35", "0.5", "0", "1e−09")
     ]
+
+
+@pytest.mark.parametrize(
+    ("value", "written"),
+    [
+        (0.001234, "0.001234"),
+        (0.0012345678, "0.001235"),
+        (-1.2e-5, "−0.000012"),
+        (1.23456e-5, "0.00001235"),
+        (1.23456e-7, "1.235e−07"),
+        (0.05678, "0.05678"),
+        (0.99996, "1"),
+    ],
+)
+def test_small_numbers_have_as_many_digits_as_large_ones(value: float, written: str) -> None:
+    assert digits(value) == written
 
 
 def test_names_lose_their_unit() -> None:
