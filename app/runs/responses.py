@@ -157,8 +157,8 @@ class Responses:
         found = read_points(folder) if job.state is JobState.DONE else None
         if found is None:
             _log.warning("frequency response of run %d: %s", run_id, job.reason)
-            detail = f"The frequency response of run {run_id} cannot be found: {job.reason}"
-            return Refusal(Code.NO_DATA, detail)
+            sentence = f"The frequency response of run {run_id} was not found"
+            return job.why_not(sentence, Code.NO_DATA)
         return found
 
     def _job(self, run_id: int, subject: Subject) -> Job[None] | Refusal:
