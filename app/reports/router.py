@@ -5,7 +5,6 @@ from typing import Annotated, Any
 import anyio
 from fastapi import APIRouter, Path, Query, Response
 from fastapi.concurrency import run_in_threadpool
-from fastapi.responses import FileResponse
 
 from app.access.dependencies import Operator, Viewer
 from app.comparison.order import Asked
@@ -30,22 +29,18 @@ TOO_LONG = Refusal(
 )
 
 
-class _Pdf(FileResponse):
+class _Pdf(Response):
     media_type = "application/pdf"
 
 
-class _PdfBytes(Response):
-    media_type = "application/pdf"
-
-
-class _Html(FileResponse):
+class _Html(Response):
     media_type = "text/html"
 
 
 @router.get(
     "/compare/report.pdf",
     operation_id="getComparisonReportPdf",
-    response_class=_PdfBytes,
+    response_class=_Pdf,
 )
 async def get_comparison_report_pdf(
     who: Viewer,
@@ -69,13 +64,13 @@ async def get_comparison_report_pdf(
         raise Refused(job.why_not("The comparison was not made", Code.BUSY))
     name = f"forcerig-runs-{'-'.join(map(str, numbers))}.pdf"
     head = {"Content-Disposition": f'inline; filename="{name}"'}
-    return _PdfBytes(granted(job.result), headers=head)
+    return _Pdf(granted(job.result), headers=head)
 
 
 @router.get("/{run_id}/report.pdf", operation_id="getRunReportPdf", response_class=_Pdf)
 async def get_run_report_pdf(
     who: Viewer, run_id: RunId, reports: ReportsService, extent: HowMuch = Extent.FULL
-) -> FileResponse:
+) -> Response:
     """The report of a run that is over, as PDF; made where there is none yet, which takes seconds."""
     return await _made(reports, Wanted(run_id, extent, Format.PDF), _Pdf)
 
@@ -83,7 +78,7 @@ async def get_run_report_pdf(
 @router.get("/{run_id}/report.html", operation_id="getRunReportHtml", response_class=_Html)
 async def get_run_report_html(
     who: Viewer, run_id: RunId, reports: ReportsService, extent: HowMuch = Extent.FULL
-) -> FileResponse:
+) -> Response:
     """The same as one page of HTML that needs nothing besides itself."""
     return await _made(reports, Wanted(run_id, extent, Format.HTML), _Html)
 
@@ -112,17 +107,17 @@ def give_up_run_report(
     return JobOut.of(granted(reports.give_up(Wanted(run_id, extent, form))))
 
 
-async def _made(reports: Reports, wanted: Wanted, response: type[FileResponse]) -> FileResponse:
+async def _made(reports: Reports, wanted: Wanted, response: type[Response]) -> Response:
     found = await run_in_threadpool(reports.begin, wanted)
     if isinstance(found, Job):
         if not await _ended(found):
             raise Refused(reports.too_long(wanted))
         found = await run_in_threadpool(reports.outcome, wanted, found)
     ready = granted(found)
-    name = f"forcerig-run-{wanted.run_id}.{wanted.format}"
     shown = "inline" if wanted.format is Format.PDF else "attachment"
-    kind = response.media_type
-    return response(ready.path, filename=name, media_type=kind, content_disposition_type=shown)
+    name = f"forcerig-run-{wanted.run_id}.{wanted.format}"
+    head = {"Content-Disposition": f'{shown}; filename="{name}"'}
+    return response(ready.content, headers=head)
 
 
 async def _ended(job: Job[Any]) -> bool:

@@ -16,8 +16,9 @@ from app.reports.of_run import under_way
 from app.reports.orders import Extent, Format, Order, Sources, carry_out, carry_out_comparison
 from app.runs import repository
 from app.runs.models import Run
+from app.settings import VERSION
 
-LAYOUT = 1  # counts up where the same run would be told otherwise
+LAYOUT = 2  # counts up where the same run would be told otherwise by the same version
 LONGEST_S = 120.0
 _NOTED = ("outcome", "verdict", "annotation", "reason", "operator", "notes", "software_version")
 Made = Refusal | None
@@ -25,9 +26,10 @@ Made = Refusal | None
 
 @dataclass(frozen=True)
 class Ready:
-    """A report that is there."""
+    """A report that is there, and was read: a newer one may take its place on the disk at any time."""
 
     path: Path
+    content: bytes
 
 
 @dataclass(frozen=True)
@@ -58,8 +60,8 @@ class Reports:
         path = self._path(wanted, look)
         if isinstance(path, Refusal):
             return path
-        if path.exists():
-            return Ready(path)
+        if (ready := _ready(path)) is not None:
+            return ready
         with self._lock:
             job = self._making.get(wanted)
             if job is not None and not job.ended.is_set():
@@ -131,8 +133,19 @@ class Reports:
                 return under_way(wanted.run_id)
             content = _content(run)
         folder = self._sources.runs_dir / str(wanted.run_id)
-        key = fingerprint({**content, "layout": LAYOUT, **_of(look), "data": _data(folder)})
+        made_by = {
+            "layout": LAYOUT,
+            "made_by": VERSION,
+        }  # an upgrade may tell the same run otherwise
+        key = fingerprint({**content, **made_by, **_of(look), "data": _data(folder)})
         return folder / f"report-{wanted.extent}-{key[:16]}.{wanted.format}"
+
+
+def _ready(path: Path) -> Ready | None:
+    try:
+        return Ready(path, path.read_bytes())
+    except FileNotFoundError:
+        return None
 
 
 def _content(run: Run) -> dict[str, object]:

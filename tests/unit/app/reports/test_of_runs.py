@@ -15,6 +15,7 @@ from app.errors import Code, Refusal
 from app.jobs.apart import run_apart
 from app.jobs.jobs import Job
 from app.recording.files import parquet_path, remove_samples
+from app.reports import service
 from app.reports.branding import Branding, branding
 from app.reports.collect import collect
 from app.reports.of_run import subject_of_run
@@ -205,6 +206,30 @@ def test_it_is_made_once_and_again_when_somebody_notes_something(
     assert after != before
     assert not before.exists(), "the one that it takes the place of"
     assert "Otto" in pages(after.read_bytes())[0]
+    reports.close()
+
+
+def test_an_upgrade_makes_it_again(
+    database: Database, sources: Sources, run_id: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    reports, wanted = Reports(database, sources), Wanted(run_id, Extent.BRIEF, Format.HTML)
+    _made(reports, wanted)
+    assert isinstance(reports.begin(wanted), Ready)
+    monkeypatch.setattr(service, "VERSION", "99.0")
+    assert isinstance(reports.begin(wanted), Job)
+    reports.close()
+
+
+def test_one_that_another_takes_the_place_of_is_still_handed_over(
+    database: Database, sources: Sources, run_id: int
+) -> None:
+    reports, wanted = Reports(database, sources), Wanted(run_id, Extent.BRIEF, Format.PDF)
+    path = _made(reports, wanted)
+    ready = reports.begin(wanted)
+    assert isinstance(ready, Ready)
+    path.unlink()
+    assert f"Run {run_id}" in pages(ready.content)[0]
+    assert isinstance(reports.begin(wanted), Job), "it is not there any more"
     reports.close()
 
 
