@@ -120,7 +120,7 @@ class Multisine:
         return [
             self._point(transfer, best, i, periods * line, mean_n, amplitude_n)
             for i, line in enumerate(self._grid.lines)
-            if np.isfinite(best.gain[i]) and np.isfinite(best.coherence[i])
+            if np.isfinite(best.gain[i])
         ]
 
     def _point(
@@ -143,7 +143,7 @@ class Multisine:
             phase_deg=math.degrees(math.atan2(gain.imag, gain.real)),
             gain_95=Interval(*map(float, best.gain_95[i])),
             phase_95_deg=Interval(*map(float, best.phase_95_deg[i])),
-            coherence=float(best.coherence[i]),
+            coherence=_known(best.coherence[i]),
             distortion_percent=None,
             cycles=cycles,
             settled=True,
@@ -154,6 +154,10 @@ class Multisine:
 
 def _deviation(variance: float) -> float | None:
     return math.sqrt(variance) if math.isfinite(variance) and variance >= 0 else None
+
+
+def _known(value: float) -> float | None:
+    return float(value) if math.isfinite(value) else None
 
 
 def played_of(asked: FrequencyResponse) -> Played:

@@ -152,7 +152,7 @@ def _sheet(amplitude_n: float, points: list[ResponsePoint]) -> Sheet:
         "phase_deg": [p.phase_deg for p in points],
         "gain_low": [p.gain_95.low for p in points],
         "gain_high": [p.gain_95.high for p in points],
-        "coherence": [p.coherence for p in points],
+        "coherence": [np.nan if p.coherence is None else p.coherence for p in points],
     }
     return Sheet(
         f"{amplitude_n:.0f}_n", {name: np.array(values) for name, values in columns.items()}

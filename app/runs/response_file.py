@@ -56,4 +56,4 @@ def _found(told: dict[str, Any]) -> Found:
     return Found(**{**told, "point": ResponsePoint(**point)})
 
 
-_NUMBERS = ("gain", "phase_deg", "coherence")
+_NUMBERS = ("gain", "phase_deg")

@@ -96,12 +96,17 @@ def _looped(
             phase_deg=math.degrees(math.atan2(loop.imag, loop.real)),
             gain_95=Interval(max(0.0, abs(loop) - radius), abs(loop) + radius),
             phase_95_deg=_turned(loop, radius),
-            coherence=min(one.coherence for one in both),
+            coherence=_least(one.coherence for one in both),
             distortion_percent=None,
             cycles=min(one.cycles for one in both),
             settled=all(one.settled for one in both),
         ),
     )
+
+
+def _least(coherences: Iterable[float | None]) -> float | None:
+    known = list(coherences)
+    return None if None in known else min(one for one in known if one is not None)
 
 
 def _loop(

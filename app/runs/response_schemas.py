@@ -22,7 +22,7 @@ class ResponsePointOut(BaseModel):
     """A point with its 95 % intervals; `gain` in the transfer's unit, `gain_db` of one without a unit.
 
     `asked_n` is the amplitude of its series, of which it may have been backed off to `amplitude_n`. `amplitude_m` is
-    that of the motion, null where it is the force that was led. Bounds are null where there are
+    that of the motion, null where it is the force that was led. Bounds and `coherence` are null where there are
     none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
     """
 
@@ -38,7 +38,7 @@ class ResponsePointOut(BaseModel):
     gain_high: float | None
     phase_low_deg: float
     phase_high_deg: float
-    coherence: float
+    coherence: float | None
     distortion_percent: float | None
     noise_std: float | None
     nonlinear_std: float | None

@@ -146,7 +146,8 @@ def _best(
 ) -> BestLinear:
     explained = np.abs(gain) ** 2
     other = variance * realisations
-    coherence = np.where(np.isnan(other), 1.0, explained / (explained + other))
+    with np.errstate(invalid="ignore"):  # neither output nor noise
+        coherence = explained / (explained + other)  # NaN where no variance is known
     freedom = np.full(len(gain), float(lines))
     known = np.where(np.isnan(variance), 0.0, variance)
     return BestLinear(

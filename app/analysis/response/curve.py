@@ -15,7 +15,7 @@ CONFIDENCE = 0.95
 class Curve:
     """(n,) each. `variance` is that of `gain` as a complex number, estimated from so many complex `lines`.
 
-    Where `lines` is 0 nothing is known of the variance, and the intervals have no bounds.
+    Where `lines` is 0 nothing is known of the variance: the intervals have no bounds, the coherence is NaN.
     """
 
     frequencies_hz: Array

@@ -55,8 +55,10 @@ class Estimate:
         return Interval(*map(float, phase_interval_deg(np.array(self.gain), self._half_width)))
 
     @property
-    def coherence(self) -> float:
-        """Share of the output that the input explains, 0…1, in single cycles."""
+    def coherence(self) -> float | None:
+        """Share of the output that the input explains, 0…1, in single cycles; None where no noise is known."""
+        if self.lines == 0:
+            return None
         explained = abs(self.gain) ** 2
         noise = self.variance * self.cycles
         return float(explained / (explained + noise)) if explained > 0 else 0.0

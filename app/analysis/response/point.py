@@ -15,9 +15,10 @@ class ResponsePoint(NamedTuple):
 
     `asked_n` is the amplitude of the series that it was measured for, where it may have been backed off.
     `gain` is in the transfer's unit, `phase_deg` negative where the output lags. `coherence` is 0…1: the
-    share of the output that the input explains, cycle by cycle. An interval of less than two cycles has no
-    bounds: its end is inf, its phase a whole turn. `distortion_percent` is the output's harmonics in % of its
-    fundamental, None where no harmonic is below half the loop rate or there is no fundamental.
+    share of the output that the input explains, cycle by cycle; None where nothing is known of the noise. An
+    interval of less than two cycles has no bounds: its end is inf, its phase a whole turn.
+    `distortion_percent` is the output's harmonics in % of its fundamental, None where no harmonic is below
+    half the loop rate or there is no fundamental.
     """
 
     transfer: str
@@ -29,7 +30,7 @@ class ResponsePoint(NamedTuple):
     phase_deg: float
     gain_95: Interval
     phase_95_deg: Interval
-    coherence: float
+    coherence: float | None
     distortion_percent: float | None
     cycles: int
     settled: bool

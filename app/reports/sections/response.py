@@ -61,7 +61,7 @@ def _series(series: ResponseSeries) -> Response:
         gain,
         phase,
         np.stack([np.maximum(low, gain - WIDE_DB), high], axis=1),
-        coherence=np.array([p.coherence for p in points]),
+        coherence=np.array([p.coherence for p in points], np.float64),
     )
 
 
@@ -152,7 +152,7 @@ def _point(series: ResponseSeries, i: int) -> Row:
         f"{digits(float(_db(np.array(p.gain_low))), 3)} … {high}",
         f"{p.phase_deg:.1f}".replace("-", "−"),
         f"{digits(p.phase_low_deg, 3)} … {digits(p.phase_high_deg, 3)}",
-        f"{p.coherence:.4f}",
+        NOTHING if p.coherence is None else f"{p.coherence:.4f}",
         NOTHING if p.distortion_percent is None else digits(p.distortion_percent, 2),
         str(p.cycles),
     )

@@ -6038,7 +6038,7 @@ export interface components {
          * @description A point with its 95 % intervals; `gain` in the transfer's unit, `gain_db` of one without a unit.
          *
          *     `asked_n` is the amplitude of its series, of which it may have been backed off to `amplitude_n`. `amplitude_m` is
-         *     that of the motion, null where it is the force that was led. Bounds are null where there are
+         *     that of the motion, null where it is the force that was led. Bounds and `coherence` are null where there are
          *     none yet. `noise_std` and `nonlinear_std` are parts of the gain's deviation.
          */
         ResponsePointOut: {
@@ -6049,7 +6049,7 @@ export interface components {
             /** Asked N */
             asked_n: number;
             /** Coherence */
-            coherence: number;
+            coherence: number | null;
             /** Cycles */
             cycles: number;
             /** Distortion Percent */

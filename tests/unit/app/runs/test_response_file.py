@@ -51,6 +51,13 @@ def test_a_point_without_bounds_is_told_with_nulls() -> None:
     assert (told.noise_std, told.nonlinear_std) == (None, 0.25)
 
 
+def test_a_coherence_of_which_nothing_is_known_stays_unknown(tmp_path: Path) -> None:
+    unknown = POINTS[0]._replace(point=POINTS[0].point._replace(coherence=None))
+    write_points(tmp_path, [unknown])
+    assert read_points(tmp_path) == [unknown]
+    assert point_out(unknown).coherence is None
+
+
 def test_a_series_is_in_the_order_of_frequency_with_its_extremes() -> None:
     (series,) = series_of(POINTS, "force")
     assert [point.frequency_hz for point in series.points] == [10.0, 20.0, 40.0, 80.0]

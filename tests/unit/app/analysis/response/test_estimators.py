@@ -1,5 +1,7 @@
 """Estimators of whole records against closed forms, scipy's filters and python-control."""
 
+from dataclasses import replace
+
 import control
 import numpy as np
 import numpy.typing as npt
@@ -182,6 +184,15 @@ def test_noise_and_distortion_are_told_apart() -> None:
     assert levels[0] == pytest.approx(levels[1], rel=0.2)
     linear = robust([_realisation(s, 0.0, noise) for s in range(40)], "u", "y", EXCITED, period_s)
     assert np.mean(linear.nonlinear_variance) < 0.02 * levels[1]
+
+
+def test_of_one_period_no_coherence_is_known() -> None:
+    drawn = _realisation(1, 0.0, 0.2)
+    single = replace(drawn, periods=1)
+    known, unknown = (robust([r], "u", "y", EXCITED, 0.5) for r in (drawn, single))
+    assert np.isnan(unknown.coherence).all()
+    assert np.isinf(unknown.gain_95[:, 1]).all()
+    assert ((known.coherence > 0) & (known.coherence < 1)).all()
 
 
 def test_a_period_that_misses_ticks_is_left_out() -> None:

@@ -61,7 +61,8 @@ def test_a_known_response_is_found_over_whole_cycles_or_not(
     assert point.gain == pytest.approx(GAIN, rel=1e-5)
     assert point.phase_deg == pytest.approx(LAG_DEG, abs=1e-3)
     assert point.distortion_percent == pytest.approx(3, rel=1e-3)
-    assert point.coherence == pytest.approx(1, abs=1e-6)
+    told = count >= 2  # of a single cycle nothing tells noise from response
+    assert point.coherence == (pytest.approx(1, abs=1e-6) if told else None)
     assert point.cycles == math.floor(count)
     assert (point.frequency_hz, point.amplitude_n) == (frequency_hz, 2000)
 
