@@ -117,6 +117,18 @@ def frequency_response(
         float | None,
         typer.Option(min=0.1, max=1999.0, help="Of the open loop: under a load of this frequency."),
     ] = None,
+    estimator: Annotated[
+        str | None,
+        typer.Option(
+            help="Averaged spectra of the whole record, whatever the test: h1, h2 or hv, where noise"
+            " is on the output, the input or both; reference (the setpoint) for what is fed back.",
+            show_default="the points that the test asks for",
+        ),
+    ] = None,
+    segment_s: Annotated[
+        float,
+        typer.Option(min=0.01, max=1000.0, help="Of a spectrum: 1/segment is its resolution."),
+    ] = 1.0,
     json: Json = False,
     csv: Csv = False,
 ) -> None:
@@ -124,8 +136,10 @@ def frequency_response(
     from app.commands.printed import Printed
     from app.commands.run_responses import Asked
     from app.commands.run_responses import frequency_response as tell
+    from app.commands.run_spectra import Spectral
 
-    raise typer.Exit(tell(run, Asked(transfer, load_hz), Printed(json, csv)))
+    spectral = None if estimator is None else Spectral(estimator, segment_s)
+    raise typer.Exit(tell(run, Asked(transfer, load_hz, spectral), Printed(json, csv)))
 
 
 @analyse.command()

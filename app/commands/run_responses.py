@@ -1,8 +1,6 @@
 """`forcerig analyse frequency-response`: every point of a transfer that a run's file tells, without a console."""
 
-import csv
 import math
-import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +10,8 @@ from rich.table import Table
 
 from app.analysis.response.transfers import EVERY, MOTION_TRANSFERS
 from app.commands.output import Exit, print_json, print_refusal, progress_bar, text_console
-from app.commands.printed import Printed
+from app.commands.printed import Printed, print_csv
+from app.commands.run_spectra import Spectral, spectral
 from app.conducting.found import Found
 from app.conducting.responding import NEEDS, Responding, responds
 from app.definitions.definition import Definition
@@ -30,10 +29,14 @@ WIDEST = 120  # a table that is cut tells nobody anything
 
 @dataclass(frozen=True)
 class Asked:
-    """Which transfer: None is that of the force, or the first that the run has. `load_hz` is the open loop's."""
+    """Which transfer: None is that of the force, or the first that the run has. `load_hz` is the open loop's.
+
+    With `spectral` it is found by averaged spectra over the whole record instead.
+    """
 
     transfer: str | None = None
     load_hz: float | None = None
+    spectral: Spectral | None = None
 
 
 class _Read(NamedTuple):
@@ -47,6 +50,8 @@ class _Read(NamedTuple):
 def frequency_response(path: Path, asked: Asked, printed: Printed) -> Exit:
     """Print every point of a transfer, and its extremes or margins."""
     refusal = _refused(asked, printed)
+    if refusal is None and asked.spectral is not None:
+        return spectral(path, asked.transfer or "force", asked.spectral, printed)
     found = refusal or _read(path, asked)
     if isinstance(found, Refusal):
         return print_refusal(found, printed.as_json)
@@ -56,7 +61,7 @@ def frequency_response(path: Path, asked: Asked, printed: Printed) -> Exit:
         unit = EVERY[found.transfer].unit
         print_json({"transfer": found.transfer, "unit": unit, "points": rows, **margins})
     elif printed.as_csv:
-        _print_csv(rows)
+        print_csv(rows)
     else:
         _print_points(found, rows)
     return Exit.PASSED
@@ -118,13 +123,6 @@ def _row(series: ResponseSeries, point: ResponsePointOut) -> dict[str, Any]:
 
 def _is_no_number(value: Any) -> bool:
     return isinstance(value, float) and not math.isfinite(value)
-
-
-def _print_csv(rows: list[dict[str, Any]]) -> None:
-    if rows:
-        writer = csv.DictWriter(sys.stdout, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def _print_points(found: _Read, rows: list[dict[str, Any]]) -> None:

@@ -5,8 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import Result
-from typer.testing import CliRunner
+from typer.testing import CliRunner, Result
 
 from app.cli import cli
 from app.commands.output import Exit
@@ -99,3 +98,60 @@ def test_the_units_static_stiffness_comes_from_slow_cycles(of_force: Path, tmp_p
     refused = CliRunner().invoke(cli, ["analyse", "unit", str(of_force)])
     assert refused.exit_code == Exit.BAD_INPUT
     assert "has no slow cycles" in refused.stderr
+
+
+@pytest.fixture(scope="module")
+def of_layers(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    sines = [
+        {"mean_n": 0, "amplitude_n": 3000, "frequency_hz": hz, "cycles": 4 * hz} for hz in (20, 40)
+    ]
+    test = make_test([{"kind": "layers", "layers": sines, "repeats": 1, "transition_s": 0.1}])
+    return recorded_file(tmp_path_factory.mktemp("layers") / "run.parquet", test)
+
+
+@pytest.mark.parametrize("estimator", ["h1", "h2", "hv"])
+def test_layers_have_a_response_by_averaged_spectra(
+    of_force: Path, of_layers: Path, estimator: str
+) -> None:
+    stepped = {p["frequency_hz"]: p["gain"] for p in told(of_force)["points"]}
+    found = told(of_layers, "--estimator", estimator)
+    assert found["estimator"] == estimator
+    points = {p["frequency_hz"]: p for p in found["points"]}
+    assert max(points) == 200
+    for hz in (20.0, 40.0):
+        assert points[hz]["gain"] == pytest.approx(stepped[hz], rel=0.02)
+        assert points[hz]["coherence"] > 0.99
+        assert points[hz]["gain_low"] <= points[hz]["gain"] <= points[hz]["gain_high"]
+    assert points[170.0]["coherence"] < 0.99  # nothing is played there: there the choice matters
+    finer = told(of_layers, "--estimator", estimator, "--segment-s", 2)
+    assert finer["points"][0]["frequency_hz"] == 0.5
+
+
+def test_the_plant_by_averaged_spectra_is_taken_against_the_setpoint(
+    of_force: Path, of_layers: Path
+) -> None:
+    stepped = {p["frequency_hz"]: p for p in told(of_force, "--transfer", "plant")["points"]}
+    found = told(of_layers, "--transfer", "plant", "--estimator", "reference")
+    for point in found["points"]:
+        if point["frequency_hz"] in (20.0, 40.0):
+            of = stepped[point["frequency_hz"]]
+            assert point["gain"] == pytest.approx(of["gain"], rel=0.02)
+            assert point["phase_deg"] == pytest.approx(of["phase_deg"], abs=2)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--estimator", "h3"], "no estimator 'h3'"),
+        (["--estimator", "h1", "--transfer", "stiffness"], "no transfer by averaged spectra"),
+        (["--estimator", "reference"], "--estimator h1 is the same"),
+        (["--estimator", "h1", "--transfer", "position"], "stands still"),
+        (["--estimator", "h1", "--segment-s", "100"], "choose a shorter --segment-s"),
+    ],
+)
+def test_what_has_no_averaged_spectra_is_refused(
+    of_layers: Path, arguments: list[str], said: str
+) -> None:
+    result = run(of_layers, *arguments)
+    assert result.exit_code == Exit.BAD_INPUT
+    assert said in " ".join(result.stderr.split())
