@@ -59,6 +59,13 @@ def test_names_are_never_markup() -> None:
     ElementTree.fromstring(bars([wicked], [0.5], [wicked], wicked))
 
 
+def test_a_response_whose_coherence_is_not_known_is_drawn_without() -> None:
+    f = np.geomspace(1.0, 100.0, 20)
+    for unknown in (np.full(20, np.nan), np.where(f < 10.0, np.nan, 1.0)):
+        svg = bode_figure(Bode([Response("1 kN", f, -0.1 * f, -f, coherence=unknown)]))
+        assert "nan" not in svg.decode().lower()
+
+
 def test_every_kind_of_figure_has_the_same_bytes_twice() -> None:
     f = np.geomspace(1.0, 100.0, 20)
     response = Response("1 kN", f, -0.1 * f, -f, coherence=np.ones(20))
