@@ -136,6 +136,13 @@ def _reach(point: ResponsePoint) -> float:
     return max(high - point.gain, point.gain - low)
 
 
+def _least(coherences: Iterable[float | None]) -> float | None:
+    """None where one of them is not known."""
+    told = list(coherences)
+    known = [one for one in told if one is not None]
+    return min(known) if len(known) == len(told) else None
+
+
 def _turned(loop: complex, radius: float) -> Interval:
     phase_deg = math.degrees(math.atan2(loop.imag, loop.real))
     within = radius < abs(loop)

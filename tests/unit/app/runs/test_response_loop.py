@@ -106,3 +106,16 @@ def test_settings_that_cannot_be_read_any_more_have_no_loop() -> None:
     definition, points = found(STEPPED)
     assert loop_points(points, definition, {"k_p": "old"}, RIG.period_s) == []
     assert available_of([]) == ["force"]
+
+
+def test_where_no_coherence_is_known_that_of_the_loop_is_not_either() -> None:
+    definition, points = found(STEPPED)
+    unknown = [
+        one._replace(point=one.point._replace(coherence=None))
+        if one.point.transfer == "motion"
+        else one
+        for one in points
+    ]
+    loaded = looped(definition, unknown, FREQUENCIES[3])
+    assert [one.point.coherence for one in loaded] == [None] * len(FREQUENCIES)
+    assert all(one.point.coherence for one in looped(definition, unknown))
