@@ -105,6 +105,7 @@ def _looped(
 
 
 def _least(coherences: Iterable[float | None]) -> float | None:
+    """None where one of them is not known."""
     known = list(coherences)
     return None if None in known else min(one for one in known if one is not None)
 
@@ -134,13 +135,6 @@ def _response(point: ResponsePoint) -> Complex:
 def _reach(point: ResponsePoint) -> float:
     low, high = point.gain_95
     return max(high - point.gain, point.gain - low)
-
-
-def _least(coherences: Iterable[float | None]) -> float | None:
-    """None where one of them is not known."""
-    told = list(coherences)
-    known = [one for one in told if one is not None]
-    return min(known) if len(known) == len(told) else None
 
 
 def _turned(loop: complex, radius: float) -> Interval:
