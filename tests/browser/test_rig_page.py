@@ -1,8 +1,8 @@
 """The Rig page: configuration, static and linear analysis, and the rig in three dimensions."""
 
-from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 
 import pytest
 from playwright.sync_api import Browser, Page, WebSocket, expect, sync_playwright
@@ -83,16 +83,29 @@ def test_the_loop_has_the_margins_of_the_rigs_sheet(console: ConsoleProcess, pag
         expect(row).to_contain_text(figure)
 
 
-def scene_frames(page: Page) -> Counter[str]:
-    """How many messages the view's socket has brought, and it is going on."""
-    found: Counter[str] = Counter()
+class SceneFrames:
+    """How many messages the view's socket has brought."""
 
-    def opened(socket: WebSocket) -> None:
+    def __init__(self, page: Page) -> None:
+        self._page, self._count = page, 0
+        page.on("websocket", self._opened)
+
+    def more(self, what: str, do: Callable[[], None] = lambda: None) -> None:
+        """Wait until something has brought another."""
+        before = self._count
+        do()
+        wait_for(lambda: self._seen() > before, what)
+
+    def _seen(self) -> int:
+        self._page.wait_for_timeout(200)  # in which playwright hears of them
+        return self._count
+
+    def _opened(self, socket: WebSocket) -> None:
         if "/scene" in socket.url:
-            socket.on("framereceived", lambda _: found.update(["scene"]))
+            socket.on("framereceived", self._heard)
 
-    page.on("websocket", opened)
-    return found
+    def _heard(self, _: object) -> None:
+        self._count += 1
 
 
 @pytest.mark.timeout(600)  # the page draws with the processor; no picture is waited for
@@ -100,17 +113,16 @@ def test_the_view_is_shown_and_moves_with_a_run(console: ConsoleProcess, page: P
     console.make_ready()
     run_id = console.start_run("step-2-kn")
     console.ended_run(run_id)
-    frames = scene_frames(page)
+    frames = SceneFrames(page)
     page.goto(f"{console.url}/#/rig/view")
     page.get_by_test_id("scene-run").select_option(str(run_id))
     page.get_by_test_id("scene-anyway").dispatch_event("click")
     frame = page.frame_locator("[data-testid=scene-frame]")
     expect(frame.locator("canvas").first).to_be_attached(timeout=3 * PATIENCE_MS)
-    wait_for(lambda: page.wait_for_timeout(500) or frames["scene"] > 0, "the rig's parts")
+    frames.more("the rig's parts")
     for moment in ("0.3", "1"):
-        before = frames["scene"]
-        page.get_by_test_id("scene-time").fill(moment)
-        wait_for(lambda: page.wait_for_timeout(200) or frames["scene"] > before, "it to move")  # noqa: B023
+        slider = page.get_by_test_id("scene-time")
+        frames.more("it to move", partial(slider.fill, moment))
 
 
 def test_the_page_says_what_has_become_of_the_view(

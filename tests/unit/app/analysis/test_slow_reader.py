@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.analysis.evidence import Sine
 from app.analysis.slow_reader import LEAST_CYCLES, SlowReader, SlowSine
 from app.analysis.walk import Walk
 from app.definitions.definition import Definition
@@ -29,7 +30,7 @@ def read(definition: Definition, records: Any, chunks: int = 7) -> tuple[SlowSin
 
 def test_the_library_s_slow_cycles_have_the_rig_s_stiffness_and_no_free_play() -> None:
     (found,) = read(SLOW, play(SLOW).records)
-    assert (found.block, found.sine, found.unit.cycles) == (1, (1.0, 10_000.0, 0.0), 10)
+    assert (found.block, found.sine, found.unit.cycles) == (1, Sine(1.0, 10_000.0, 0.0), 10)
     assert found.unit.stiffness_n_m == pytest.approx(RIG.unit.k_tra, rel=0.01)
     assert found.unit.stiffness_std_n_m < 0.03 * RIG.unit.k_tra
     damped_j = np.pi * RIG.unit.c_tra * 2 * np.pi * (10e3 / RIG.unit.k_tra) ** 2
