@@ -217,14 +217,6 @@ export function nearest(all: readonly number[], hz: number): number | null {
 export const pointAt = ({ points }: BodeSeries, hz: number | null): BodePoint | null =>
   points.find(({ frequency_hz }) => frequency_hz === hz) ?? null;
 
-/** Highest above and lowest below 0 dB, for whoever was not told the extremes. */
-export function extremesOf(points: readonly BodePoint[]): readonly Extreme[] {
-  const all = points.filter(({ gain }) => gain > 0).map((p) => ({ frequency_hz: p.frequency_hz, gain_db: toDb(p.gain) }));
-  const peak = all.reduce<Extreme | null>((best, next) => (next.gain_db > (best?.gain_db ?? 0.05) ? next : best), null);
-  const dip = all.reduce<Extreme | null>((best, next) => (next.gain_db < (best?.gain_db ?? -0.05) ? next : best), null);
-  return [peak, dip].filter((extreme) => extreme !== null);
-}
-
 const MINUS = "\u2212";
 const plus = (value: number, digits: number): string => {
   const text = Math.abs(value).toFixed(digits);
