@@ -22,8 +22,8 @@ BOUNDS_CHECKED := $(addprefix tests/unit/rtcore/test_,tick.py trips.py adoption.
 
 WITH_ALL = FORCERIG_CHROMIUM="$$($(PY) -m tools.ensure_chromium)" FORCERIG_POSTGRES="$$($(PY) -m tools.ensure_postgres)"
 
-# What has no process of its own is tested side by side, then all others one after another.
-EVERYTHING = $(PY) -m pytest -m "not alone" -n auto --dist loadfile && $(WITH_ALL) $(PY) -m pytest -m alone
+# What has no process of its own is tested side by side, then all others one after another, whatever the first came to.
+EVERYTHING = $(PY) -m pytest -m "not alone" -n auto --dist loadfile; first=$$?; $(WITH_ALL) $(PY) -m pytest -m alone && exit $$first
 
 # The whole interface once more on a server, where there is one; not where only some tests are asked for.
 define ON_POSTGRESQL
