@@ -9,6 +9,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
+from app.scene import words
 from tests.api.test_access import Person, told
 from tests.api.test_rights import ELSEWHERE, _raw
 from tests.console_process import ConsoleProcess, wait_for
@@ -170,9 +171,7 @@ def test_each_view_has_its_own_moment_of_a_run(drawn: ConsoleProcess, run_id: in
         for name, time_s in zip(("first", "second"), times_s, strict=True):
             assert point(drawn, view=name, run_id=run_id, time_s=time_s) == 200
         for viewer, time_s in ((first, times_s[0]), (second, times_s[1])):
-            force_n = force_at(drawn, run_id, time_s)
-            said = f"{force_n / 1e3:.2f} kN".replace("-", "−")
-            viewer.until("/label/force", "text", said)
+            viewer.until("/label/force", "text", words.force(force_at(drawn, run_id, time_s)))
 
 
 def test_nobody_steers_the_view_of_another(drawn: ConsoleProcess, run_id: int) -> None:
@@ -184,8 +183,7 @@ def test_nobody_steers_the_view_of_another(drawn: ConsoleProcess, run_id: int) -
         )
         cursor = {"view": "mine", "run_id": run_id, "time_s": 2.0}
         assert person.browser.post("/scene/cursor", json=cursor).is_success
-        said = f"{force_at(drawn, run_id, 2.0) / 1e3:.2f} kN".replace("-", "−")
-        viewer.until("/label/force", "text", said)
+        viewer.until("/label/force", "text", words.force(force_at(drawn, run_id, 2.0)))
 
 
 @pytest.mark.parametrize(
