@@ -90,7 +90,11 @@ class SceneFrames:
         self._page, self._count = page, 0
         page.on("websocket", self._opened)
 
-    def more(self, what: str, do: Callable[[], None] = lambda: None) -> None:
+    def any(self) -> None:
+        """Wait for the first, if it has not been there."""
+        wait_for(lambda: self._seen() > 0, "the rig's parts")
+
+    def more(self, what: str, do: Callable[[], None]) -> None:
         """Wait until something has brought another."""
         before = self._count
         do()
@@ -119,7 +123,7 @@ def test_the_view_is_shown_and_moves_with_a_run(console: ConsoleProcess, page: P
     page.get_by_test_id("scene-anyway").dispatch_event("click")
     frame = page.frame_locator("[data-testid=scene-frame]")
     expect(frame.locator("canvas").first).to_be_attached(timeout=3 * PATIENCE_MS)
-    frames.more("the rig's parts")
+    frames.any()
     for moment in ("0.3", "1"):
         slider = page.get_by_test_id("scene-time")
         frames.more("it to move", partial(slider.fill, moment))

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.session import HARMONIC, predict
-from tests.console_process import ConsoleProcess
+from tests.console_process import ConsoleProcess, wait_for
 
 pytestmark = [pytest.mark.browser, pytest.mark.process, pytest.mark.slow]
 PATIENCE_MS = 60_000
@@ -89,12 +89,18 @@ def test_a_run_zooms_to_single_ticks_and_opens_again_like_that(
     chart = page.get_by_test_id("chart-run").first
     expect(page.get_by_test_id("run-note")).to_have_text("Extremes of each column")
     expect(page.get_by_test_id("run-events")).to_contain_text("Block 1")
-    chart.locator(".u-over").hover()  # once it stands still: what comes late moves it
-    for _ in range(60):
-        page.mouse.wheel(0, -200)
+
+    def turned_to_ticks() -> bool:
+        chart.locator(".u-over").hover()  # what comes late moves it
+        for _ in range(20):
+            page.mouse.wheel(0, -200)
+        page.wait_for_timeout(500)
+        low, high = window_s(page)
+        return high - low < 20 * TICK_S
+
+    wait_for(turned_to_ticks, "the wheel to come down to ticks")
     expect(page.get_by_test_id("run-note")).to_have_text("Every tick")
     low, high = window_s(page)
-    assert high - low < 20 * TICK_S
     expect(page).to_have_url(re.compile(r"from=.*to="))
 
     page.goto("about:blank")

@@ -12,6 +12,7 @@ import { checkTest, createTest, getTest, reviseTest } from "./requests";
 import { setAt, type Json, type Path } from "./tree";
 import type { Checked, Definition, Fault, Outline, TestDetail, TestText } from "./types";
 
+const AGAIN_MS = 2000;
 const PAUSE_MS = { form: 120, yaml: 250 } as const;
 
 /** A state of the draft. `agreed`: form and YAML are known to say the same. */
@@ -189,7 +190,9 @@ export class Editor {
       const checked = await checkTest(textToCheck(this.now), signal);
       if (!signal.aborted) this.take(checked);
     } catch (error) {
-      if (!signal.aborted) this.failure = textOf(error);
+      if (signal.aborted) return;
+      this.failure = textOf(error);
+      if (mayPass(error)) this.check(AGAIN_MS);
     }
   }
 
@@ -235,6 +238,10 @@ export class Editor {
     return this.base !== null && written.yaml === this.base.yaml && (written.agreed || written.from === "yaml");
   }
 }
+
+/** Whether asking again may do: nobody answered, or was too busy to. */
+const mayPass = (error: unknown): boolean =>
+  !(error instanceof Problem) || error.status === null || error.status === 429 || error.status >= 500;
 
 const textToCheck = ({ yaml, definition, from }: Written): TestText =>
   from === "yaml" ? { yaml } : { definition };
