@@ -24,6 +24,11 @@ class Sine(NamedTuple):
     mean_n: float
     asked_n: float | None = None
 
+    @property
+    def series_n(self) -> float:
+        """The amplitude (N) of the series that it was played for."""
+        return self.amplitude_n if self.asked_n is None else self.asked_n
+
 
 class Stretch(NamedTuple):
     """Ticks of the program from `first` to before `last`: one piece of one block.

@@ -52,10 +52,10 @@ def least_of(sines: Iterable[FoundSine], read: Callable[[Extremes], float | None
 
 
 def _series(sines: Iterable[FoundSine]) -> list[list[FoundSine]]:
-    """Sines of the same block, amplitude and mean."""
+    """Sines of the same block, amplitude asked for, and mean."""
     groups: dict[tuple[int, float, float], list[FoundSine]] = {}
     for sine in sines:
-        key = sine.block, sine.asked.amplitude_n, sine.asked.mean_n
+        key = sine.block, sine.asked.series_n, sine.asked.mean_n
         groups.setdefault(key, []).append(sine)
     return list(groups.values())
 

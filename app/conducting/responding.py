@@ -9,7 +9,6 @@ from app.conducting.found import Found
 from app.conducting.multisines import Multisine, played_of
 from app.conducting.positions import CHANNELS as OF_MOTION
 from app.conducting.positions import PositionResponses, multisines_in
-from app.conducting.score import asked_amplitudes
 from app.conducting.sweeps import SweptSine
 from app.definitions.blocks import Block, Repeat, Sweep
 from app.definitions.definition import Definition
@@ -64,7 +63,6 @@ class Responding:
         self._definition = definition
         self._walk = Walk(stretches(definition), period_s, first_tick, also=CHANNELS)
         self._stepped = SteppedSine(period_s, rig=rig)
-        self._asked_n = asked_amplitudes(definition)
         self._multisines: dict[Path, Multisine] = {}
         self._sweeps: dict[Path, SweptSine] = {}
         self._positions = PositionResponses(definition, period_s, first_tick)
@@ -81,7 +79,7 @@ class Responding:
             if asked.method == "multisine":
                 self._multisine(part, asked).take(part)
             else:
-                self._stepped.take(self._as_asked(part))
+                self._stepped.take(part)
             if also is not None:
                 also(part)
 
@@ -95,14 +93,6 @@ class Responding:
     def latest(self) -> list[Found]:
         """The stepped sine that is being measured now, of each transfer."""
         return [Found("stepped_sine", point) for point in self._stepped.latest()]
-
-    def _as_asked(self, part: Part) -> Part:
-        """A point that was backed off is told from one that was meant to be as small."""
-        stretch = part.stretch
-        if stretch.sine is None or stretch.first not in self._asked_n:
-            return part
-        sine = stretch.sine._replace(asked_n=self._asked_n[stretch.first])
-        return part._replace(stretch=stretch._replace(sine=sine))
 
     def _sweep(self, part: Part, asked: Sweep) -> SweptSine:
         path = part.stretch.path

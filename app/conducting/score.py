@@ -74,17 +74,6 @@ def scores_of(definition: Definition) -> list[Score]:
     return found
 
 
-def asked_amplitudes(definition: Definition) -> dict[int, float]:
-    """What was asked for (N) of the points that may be backed off, by the ticks at which they are measured."""
-    return {
-        turn.first: score.points[turn.point].asked_n
-        for score in scores_of(definition)
-        if score.asked.auto_level is not None
-        for turn in score.turns
-        if turn.role is Role.MEASURE
-    }
-
-
 def _turns(nodes: Sequence[Node], tick: int, segment: int) -> Iterator[Turn]:
     point, before = 0, Role.MEASURE
     for piece in nodes:

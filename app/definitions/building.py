@@ -153,6 +153,7 @@ def _steady(sine: Sine, duration_s: float, counts: int) -> Piece:
         frequency_to_hz=sine.frequency_hz,
         continues=1,
         counts=counts,
+        asked=sine.asked,
     )
 
 

@@ -77,6 +77,7 @@ class Piece:
     track: Track | None = None
     branch: Branch = Branch.EXCLUDED
     is_step: bool = False  # meant to be sudden
+    asked: float | None = None  # amplitude from which a sine may have been backed off
     origin: Path = ()  # the block it serves: ("blocks", 1, "blocks", 0)
 
 
@@ -94,11 +95,12 @@ Node = Piece | Loop
 
 @dataclass(frozen=True, slots=True)
 class Sine:
-    """A harmonic in full swing: `mean` and `amplitude` in N or m."""
+    """A harmonic in full swing: `mean` and `amplitude` in N or m; `asked`: that from which it may be backed off."""
 
     mean: float
     amplitude: float
     frequency_hz: float
+    asked: float | None = None
 
 
 def unrolled(nodes: Iterable[Node]) -> Iterator[Piece]:

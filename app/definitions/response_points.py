@@ -31,11 +31,6 @@ class PlannedPoint:
     slower_hz: float
 
     @property
-    def asked_n(self) -> float:
-        """The amplitude of its series, before it was halved."""
-        return self.sine.amplitude * float(2**self.level)
-
-    @property
     def between(self) -> bool:
         """Whether it is only played where the response bends."""
         return self.rank > 0
@@ -49,10 +44,11 @@ def planned_points(block: FrequencyResponse) -> list[PlannedPoint]:
     reachable: list[float] = []  # back to the last frequency that is played in any case
     series = [(mean, amplitude) for mean in block.means() for amplitude in block.amplitudes_n]
     for number, (mean_n, amplitude_n) in enumerate(series):
+        asked_n = None if block.auto_level is None else amplitude_n
         for place, rank, hz in frequencies:
             slower_hz = min([hz, *reachable])
             for level, share in enumerate(levels):
-                sine = Sine(mean_n, amplitude_n * share, hz)
+                sine = Sine(mean_n, amplitude_n * share, hz, asked_n)
                 found.append(PlannedPoint(sine, number, place, rank, level, slower_hz))
             reachable = [hz] if rank == 0 else [*reachable, hz]
     return found

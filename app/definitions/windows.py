@@ -73,7 +73,7 @@ def _kind(played: _Played) -> Kind:
 
 def _stretch(played: _Played, first: int, last: int, kind: Kind, end: State) -> Stretch:
     piece, before = played.piece, played.before
-    steady = Sine(piece.frequency_to_hz, piece.amplitude_to, piece.mean_to)
+    steady = Sine(piece.frequency_to_hz, piece.amplitude_to, piece.mean_to, piece.asked)
     return Stretch(
         first,
         last,

@@ -58,6 +58,16 @@ def test_amplitudes_are_responses_of_their_own_and_the_worst_counts() -> None:
     assert values([*SINES, *slower])["bandwidth_minus_3_db_hz"] == pytest.approx(15.0, rel=0.1)
 
 
+def test_a_sine_that_was_backed_off_stays_in_the_response_that_it_was_played_for() -> None:
+    whole = [low_pass(hz, 2000.0) for hz in (5.0, 20.0)]
+    backed_off = low_pass(40.0)._replace(asked=Sine(40.0, 1000.0, 0.0, asked_n=2000.0))
+    assert values(whole)["bandwidth_minus_3_db_hz"] is None
+    found = values([*whole, backed_off])
+    assert found["bandwidth_minus_3_db_hz"] == pytest.approx(30.0, rel=0.05)
+    planned = backed_off._replace(asked=Sine(40.0, 1000.0, 0.0))
+    assert values([*whole, planned])["bandwidth_minus_3_db_hz"] is None
+
+
 def test_bands_are_met_by_a_share_of_their_sines() -> None:
     assert values(SINES, band(high_db=0.0))["bands_met"] == 1.0
     assert values(SINES, band(high_db=-3.0))["bands_met"] == pytest.approx(2 / 5)
