@@ -85,11 +85,11 @@ def _exports(this: ThisConsole) -> Exports:
 
 
 def _first_outs(this: ThisConsole) -> FirstOuts:
-    return this.first_outs
+    return this.first_outs.kept
 
 
 def _first_outs_again(this: ThisConsole) -> Again:
-    return this.first_outs_again
+    return this.first_outs.again
 
 
 def _drills(this: ThisConsole) -> Drills:

@@ -1,15 +1,13 @@
 """`/api/v1/tokens` and `/api/v1/sessions`: one's own, and everybody's for an admin."""
 
-from typing import Annotated
-
-from fastapi import APIRouter, Path
+from fastapi import APIRouter
 
 from app.access.dependencies import AccessService, Viewer
 from app.access.schemas import SessionOut, TokenCreate, TokenMade, TokenOut
+from app.parameters import Number
 from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1", tags=["access"], responses=PROBLEMS)
-Number = Annotated[int, Path(ge=1, le=2**53)]
 
 
 @router.get("/tokens", operation_id="listTokens")

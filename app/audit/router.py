@@ -8,6 +8,7 @@ from app.access.dependencies import Engineer
 from app.audit.schemas import AuditPage, Verification
 from app.audit.sought import Sought
 from app.dependencies import AuditService
+from app.parameters import Before, Limit
 from app.problems import PROBLEMS
 from app.runs.schemas import Moment
 
@@ -25,8 +26,8 @@ def list_audit(
     since: Moment | None = None,
     until: Annotated[Moment | None, Query(description="and not then")] = None,
     search: Annotated[str, Query(max_length=200, description="beginnings of words")] = "",
-    limit: Annotated[int, Query(ge=1, le=200)] = 50,
-    before: Annotated[int | None, Query(ge=1, le=2**53)] = None,
+    limit: Limit = 50,
+    before: Before = None,
 ) -> AuditPage:
     """The newest entries first; `next` of a page is `before` of the page after it."""
     return audit.page(Sought(who, action, target, since, until, search), limit, before)

@@ -1,8 +1,6 @@
 """`/api/v1/lease`: who is in command."""
 
-from typing import Annotated
-
-from fastapi import APIRouter, Path
+from fastapi import APIRouter
 
 from app.access.dependencies import Operator, Viewer
 from app.authority.lease import Wish
@@ -15,10 +13,10 @@ from app.authority.schemas import (
     LeaseWish,
 )
 from app.dependencies import AuthorityService
+from app.parameters import Number
 from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/lease", tags=["lease"], responses=PROBLEMS)
-RequestId = Annotated[int, Path(ge=1, le=2**53)]
 
 
 @router.get("", operation_id="getLease")
@@ -56,9 +54,7 @@ def request_lease(who: Operator, body: LeaseAsk, authority: AuthorityService) ->
 
 
 @router.delete("/requests/{request_id}", status_code=204, operation_id="declineLeaseRequest")
-def decline_lease_request(
-    who: Operator, request_id: RequestId, authority: AuthorityService
-) -> None:
+def decline_lease_request(who: Operator, request_id: Number, authority: AuthorityService) -> None:
     """Decline a request, in command, or withdraw one's own."""
     granted(authority.decline(who, request_id))
 

@@ -11,7 +11,7 @@ from app.controller.schemas import ControllerOut, ControllerRevisionOut
 from app.dependencies import AuthorityService, ControllerService
 from app.problems import PROBLEMS, granted
 from app.revisions.difference import difference
-from app.revisions.kind import Wanted
+from app.revisions.requests import Before, Limit, wanted
 from app.revisions.schemas import (
     DocumentChange,
     Number,
@@ -35,9 +35,7 @@ def change_controller(
 ) -> ControllerOut:
     """Put other settings in force, whole or not at all; refused while a test runs."""
     document = granted(controller_from(body.document, "body"))
-    epoch = granted(authority.check(who, body.lease))
-    wanted = Wanted(document, body.why, body.based_on, who.name, epoch)
-    made = granted(controllers.change(wanted))
+    made = granted(controllers.change(wanted(who, body, document, authority)))
     return shown.in_force(made, in_loop=controllers.loop_has_it())
 
 
@@ -45,10 +43,8 @@ def change_controller(
 def list_revisions(
     who: Viewer,
     controllers: ControllerService,
-    before: Annotated[
-        Number | None, Query(description="the last number of the page before")
-    ] = None,
-    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
+    before: Before = None,
+    limit: Limit = 100,
 ) -> list[SettingsRevision]:
     """The revisions, the newest first."""
     rows = controllers.revisions(before, limit)
@@ -73,9 +69,7 @@ def restore_revision(
 ) -> ControllerOut:
     """Put an earlier revision in force again, as a new one."""
     old = granted(controllers.revision(number))
-    epoch = granted(authority.check(who, body.lease))
-    wanted = Wanted(old.document, body.why, body.based_on, who.name, epoch)
-    made = granted(controllers.change(wanted))
+    made = granted(controllers.change(wanted(who, body, old.document, authority)))
     return shown.in_force(made, in_loop=controllers.loop_has_it())
 
 

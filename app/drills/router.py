@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Path, Query, Response
+from fastapi import APIRouter, Query, Response
 
 from app.access.dependencies import Engineer, Viewer
 from app.dependencies import DrillsService
@@ -13,13 +13,11 @@ from app.drills.schemas import (
     DrillPage,
     DrillRequest,
 )
+from app.parameters import Apart, Before, Channels, Limit, Number, Points, names_in
 from app.problems import PROBLEMS, granted
 from app.runs.schemas import RunSamples
 
 router = APIRouter(prefix="/api/v1/drills", tags=["drills"], responses=PROBLEMS)
-Number = Annotated[int, Path(ge=1, le=2**53)]
-Seconds = Annotated[float, Query(ge=-1e9, le=1e9, allow_inf_nan=False)]
-MOST_POINTS = 20_000
 
 
 @router.get("", operation_id="listDrills")
@@ -45,8 +43,8 @@ def list_drill_records(
     who: Viewer,
     drills: DrillsService,
     fault: Annotated[str | None, Query(max_length=40)] = None,
-    limit: Annotated[int, Query(ge=1, le=200)] = 50,
-    before: Annotated[int | None, Query(ge=1, le=2**53)] = None,
+    limit: Limit = 50,
+    before: Before = None,
 ) -> DrillPage:
     """The newest drills first; `next` of a page is `before` of the page after it."""
     return drills.page(fault, limit, before)
@@ -63,12 +61,12 @@ def get_drill_samples(
     who: Viewer,
     number: Number,
     drills: DrillsService,
-    channels: Annotated[str, Query(max_length=2000, description="names, with commas between")],
-    from_s: Annotated[Seconds, Query(description="from the fault: negative before it")] = -10.0,
-    to_s: Seconds | None = None,
-    points: Annotated[int, Query(ge=1, le=MOST_POINTS)] = 2000,
+    channels: Channels,
+    from_s: Annotated[Apart, Query(description="from the fault: negative before it")] = -10.0,
+    to_s: Apart | None = None,
+    points: Points = 2000,
 ) -> Response:
     """Least and greatest value in each of at most `points` stretches; each tick where there are enough."""
-    names = [name.strip() for name in channels.split(",") if name.strip()]
+    names = names_in(channels)
     found = granted(drills.window(number, names, from_s, to_s, points))
     return Response(found.model_dump_json(), media_type="application/json")

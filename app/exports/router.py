@@ -14,10 +14,10 @@ from app.exports.extract import Wanted
 from app.exports.formats import FORMATS, FormatName
 from app.exports.schemas import ExportAsked, ExportOut, Seconds
 from app.exports.sending import whole_file
+from app.parameters import Channels, Number
 from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/runs", tags=["exports"], responses=PROBLEMS)
-RunId = Annotated[int, Path(ge=1, le=2**53)]
 ExportId = Annotated[str, Path(pattern=NO_NUL, max_length=40)]
 _BINARY = {"schema": {"type": "string", "format": "binary"}}
 _MEDIA: dict[int | str, dict[str, Any]] = {
@@ -37,11 +37,11 @@ _MEDIA: dict[int | str, dict[str, Any]] = {
 async def get_run_data(
     request: Request,
     who: Viewer,
-    run_id: RunId,
+    run_id: Number,
     ending: FormatName,
     runs: RunsService,
     exports: ExportsService,
-    channels: Annotated[str, Query(max_length=2000, description="names, with commas between")] = "",
+    channels: Channels = "",
     from_s: Annotated[Seconds, Query()] = 0.0,
     to_s: Annotated[Seconds | None, Query()] = None,
 ) -> Response:
@@ -60,20 +60,22 @@ async def get_run_data(
 
 
 @router.post("/{run_id}/exports", status_code=202, operation_id="exportRun")
-def export_run(who: Viewer, run_id: RunId, body: ExportAsked, exports: ExportsService) -> ExportOut:
+def export_run(
+    who: Viewer, run_id: Number, body: ExportAsked, exports: ExportsService
+) -> ExportOut:
     """Have a file made: ask for its progress, then for the file. It is kept for an hour."""
     return granted(exports.start(who, run_id, body.format, body.wanted))
 
 
 @router.get("/{run_id}/exports", operation_id="listExports")
-def list_exports(who: Viewer, run_id: RunId, exports: ExportsService) -> list[ExportOut]:
+def list_exports(who: Viewer, run_id: Number, exports: ExportsService) -> list[ExportOut]:
     """What is being made of a run, or was within the hour; the newest first."""
     return exports.all(run_id)
 
 
 @router.get("/{run_id}/exports/{export_id}", operation_id="getExport")
 def get_export(
-    who: Viewer, run_id: RunId, export_id: ExportId, exports: ExportsService
+    who: Viewer, run_id: Number, export_id: ExportId, exports: ExportsService
 ) -> ExportOut:
     """How far it is."""
     return granted(exports.get(run_id, export_id))
@@ -86,7 +88,7 @@ def get_export(
     responses=_MEDIA,
 )
 def get_export_file(
-    who: Viewer, run_id: RunId, export_id: ExportId, exports: ExportsService
+    who: Viewer, run_id: Number, export_id: ExportId, exports: ExportsService
 ) -> FileResponse:
     """The file, once it is made."""
     path = granted(exports.file(run_id, export_id))
@@ -97,7 +99,7 @@ def get_export_file(
 
 @router.delete("/{run_id}/exports/{export_id}", operation_id="removeExport")
 def remove_export(
-    who: Viewer, run_id: RunId, export_id: ExportId, exports: ExportsService
+    who: Viewer, run_id: Number, export_id: ExportId, exports: ExportsService
 ) -> ExportOut:
     """Give it up, or remove its file: one's own, and an operator anybody's."""
     return granted(exports.remove(who, run_id, export_id))

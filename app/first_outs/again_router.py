@@ -1,18 +1,18 @@
 """`/api/v1/first-outs/{number}/replay` and `/rerun`."""
 
-from typing import Annotated, Any
+from typing import Any
 
-from fastapi import APIRouter, Path, Response
+from fastapi import APIRouter, Response
 
 from app.access.dependencies import Viewer
 from app.dependencies import FirstOutsAgain
 from app.first_outs.replay_schemas import ReplayAsked, ReplayOut
 from app.first_outs.rerun_schemas import RerunAsked, RerunOut
+from app.parameters import Number
 from app.prediction.schemas import Computing
 from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/first-outs", tags=["first-outs"], responses=PROBLEMS)
-Number = Annotated[int, Path(ge=1, le=2**53)]
 _COMPUTING: dict[int | str, dict[str, Any]] = {
     202: {"model": Computing, "description": "Still being computed: ask the same again"}
 }

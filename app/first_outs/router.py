@@ -2,20 +2,18 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Path, Query, Response
+from fastapi import APIRouter, Query, Response
 from fastapi.responses import FileResponse
 
 from app.access.dependencies import Engineer, Operator, Viewer
 from app.dependencies import FirstOutsService
 from app.first_outs.repository import Sought
 from app.first_outs.schemas import FirstOutDetail, FirstOutNote, FirstOutPage
+from app.parameters import Apart, Before, Channels, Limit, Number, Points, names_in
 from app.problems import PROBLEMS, granted
 from app.runs.schemas import Moment, RunSamples
 
 router = APIRouter(prefix="/api/v1/first-outs", tags=["first-outs"], responses=PROBLEMS)
-Number = Annotated[int, Path(ge=1, le=2**53)]
-Seconds = Annotated[float, Query(ge=-1e9, le=1e9, allow_inf_nan=False)]
-MOST_POINTS = 20_000
 
 
 @router.get("", operation_id="listFirstOuts")
@@ -26,8 +24,8 @@ def list_first_outs(
     run: Annotated[int | None, Query(ge=1, le=2**53)] = None,
     since: Annotated[Moment | None, Query(alias="from")] = None,
     until: Annotated[Moment | None, Query(alias="to", description="and not then")] = None,
-    limit: Annotated[int, Query(ge=1, le=200)] = 50,
-    before: Annotated[int | None, Query(ge=1, le=2**53)] = None,
+    limit: Limit = 50,
+    before: Before = None,
 ) -> FirstOutPage:
     """The newest first-outs first; `next` of a page is `before` of the page after it."""
     return first_outs.page(Sought(detector, run, since, until), limit, before)
@@ -50,13 +48,13 @@ def get_first_out_samples(
     who: Viewer,
     number: Number,
     first_outs: FirstOutsService,
-    channels: Annotated[str, Query(max_length=2000, description="names, with commas between")],
-    from_s: Annotated[Seconds, Query(description="from the first-out: negative before it")] = -10.0,
-    to_s: Seconds | None = None,
-    points: Annotated[int, Query(ge=1, le=MOST_POINTS)] = 2000,
+    channels: Channels,
+    from_s: Annotated[Apart, Query(description="from the first-out: negative before it")] = -10.0,
+    to_s: Apart | None = None,
+    points: Points = 2000,
 ) -> Response:
     """Least and greatest value in each of at most `points` stretches; times count from the first-out."""
-    names = [name.strip() for name in channels.split(",") if name.strip()]
+    names = names_in(channels)
     found = granted(first_outs.window(number, names, from_s, to_s, points))
     return Response(found.model_dump_json(), media_type="application/json")
 

@@ -1,8 +1,6 @@
 """`/api/v1/identifications`."""
 
-from typing import Annotated
-
-from fastapi import APIRouter, Path, Query
+from fastapi import APIRouter
 
 from app.access.dependencies import Engineer, Viewer
 from app.dependencies import IdentificationsService
@@ -13,18 +11,18 @@ from app.identification.requests import (
     IdentificationRequest,
     IdentificationSummary,
 )
+from app.parameters import Before, Limit, Number
 from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/identifications", tags=["identifications"], responses=PROBLEMS)
-Number = Annotated[int, Path(ge=1, le=2**53)]
 
 
 @router.get("", operation_id="listIdentifications")
 def list_identifications(
     who: Viewer,
     identifications: IdentificationsService,
-    before: Annotated[int | None, Query(ge=1, le=2**53, description="older than this")] = None,
-    limit: Annotated[int, Query(ge=1, le=200)] = 50,
+    before: Before = None,
+    limit: Limit = 50,
 ) -> list[IdentificationSummary]:
     """The identifications, the newest first, and how far each is."""
     return identifications.page(limit, before)

@@ -19,7 +19,7 @@ from app.interlocks.schemas import (
     TableRevision,
 )
 from app.problems import PROBLEMS, granted
-from app.revisions.kind import Wanted
+from app.revisions.requests import Before, Limit, wanted
 from app.revisions.schemas import Number
 
 router = APIRouter(prefix="/api/v1/interlocks", tags=["interlocks"], responses=PROBLEMS)
@@ -37,9 +37,7 @@ def change_interlocks(
 ) -> InterlocksOut:
     """Put another table in force, whole or not at all. An old revision is restored by giving it again."""
     table = granted(interlocks_from(shown.document(body), "body"))
-    epoch = granted(authority.check(who, body.lease))
-    wanted = Wanted(table, body.why, body.based_on, who.name, epoch)
-    made = granted(tables.change(wanted))
+    made = granted(tables.change(wanted(who, body, table, authority)))
     return shown.in_force(made, in_loop=tables.loop_has_it())
 
 
@@ -61,10 +59,8 @@ def get_live_interlocks(who: Viewer, live: LiveInterlocksTable) -> LiveInterlock
 def list_revisions(
     who: Viewer,
     tables: InterlocksService,
-    before: Annotated[
-        Number | None, Query(description="the last number of the page before")
-    ] = None,
-    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
+    before: Before = None,
+    limit: Limit = 100,
 ) -> list[TableRevision]:
     """The revisions, the newest first."""
     return [shown.summary(row) for row in tables.revisions(before, limit)]

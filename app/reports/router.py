@@ -3,7 +3,7 @@
 from typing import Annotated, Any
 
 import anyio
-from fastapi import APIRouter, Path, Query, Response
+from fastapi import APIRouter, Query, Response
 from fastapi.concurrency import run_in_threadpool
 
 from app.access.dependencies import Operator, Viewer
@@ -12,13 +12,13 @@ from app.dependencies import ComparisonsService, ReportsService
 from app.errors import Code, Refusal
 from app.jobs.jobs import Job
 from app.jobs.schemas import JobOut
+from app.parameters import Number
 from app.prediction.schemas import Computing
 from app.problems import PROBLEMS, Refused, granted
 from app.reports.orders import Extent, Format
 from app.reports.service import LONGEST_S, Reports, Wanted
 
 router = APIRouter(prefix="/api/v1/runs", tags=["reports"], responses=PROBLEMS)
-RunId = Annotated[int, Path(ge=1, le=2**53)]
 HowMuch = Annotated[Extent, Query(description="two pages or so, or all that there is to say")]
 LOOK_S = 0.05
 RUN_IDS = r"^[1-9][0-9]{0,14}(,[1-9][0-9]{0,14}){1,7}$"
@@ -69,7 +69,7 @@ async def get_comparison_report_pdf(
 
 @router.get("/{run_id}/report.pdf", operation_id="getRunReportPdf", response_class=_Pdf)
 async def get_run_report_pdf(
-    who: Viewer, run_id: RunId, reports: ReportsService, extent: HowMuch = Extent.FULL
+    who: Viewer, run_id: Number, reports: ReportsService, extent: HowMuch = Extent.FULL
 ) -> Response:
     """The report of a run that is over, as PDF; made where there is none yet, which takes seconds."""
     return await _made(reports, Wanted(run_id, extent, Format.PDF), _Pdf)
@@ -77,7 +77,7 @@ async def get_run_report_pdf(
 
 @router.get("/{run_id}/report.html", operation_id="getRunReportHtml", response_class=_Html)
 async def get_run_report_html(
-    who: Viewer, run_id: RunId, reports: ReportsService, extent: HowMuch = Extent.FULL
+    who: Viewer, run_id: Number, reports: ReportsService, extent: HowMuch = Extent.FULL
 ) -> Response:
     """The same as one page of HTML that needs nothing besides itself."""
     return await _made(reports, Wanted(run_id, extent, Format.HTML), _Html)
@@ -86,7 +86,7 @@ async def get_run_report_html(
 @router.get("/{run_id}/report", operation_id="getRunReportProgress")
 def get_run_report_progress(
     who: Viewer,
-    run_id: RunId,
+    run_id: Number,
     reports: ReportsService,
     extent: HowMuch = Extent.FULL,
     form: Annotated[Format, Query(alias="format")] = Format.PDF,
@@ -98,7 +98,7 @@ def get_run_report_progress(
 @router.delete("/{run_id}/report", operation_id="giveUpRunReport")
 def give_up_run_report(
     who: Operator,
-    run_id: RunId,
+    run_id: Number,
     reports: ReportsService,
     extent: HowMuch = Extent.FULL,
     form: Annotated[Format, Query(alias="format")] = Format.PDF,

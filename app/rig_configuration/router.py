@@ -8,7 +8,7 @@ from app.access.dependencies import Engineer, Viewer
 from app.dependencies import AuthorityService, RigConfigurationService
 from app.problems import PROBLEMS, granted
 from app.revisions.difference import difference
-from app.revisions.kind import Wanted
+from app.revisions.requests import Before, Limit, wanted
 from app.revisions.schemas import (
     DocumentChange,
     Number,
@@ -40,9 +40,7 @@ def change_configuration(
 ) -> RigConfigurationOut:
     """Put another in force, whole or not at all; another model only while there is no pressure."""
     document = granted(configuration_from(body.document, "body"))
-    epoch = granted(authority.check(who, body.lease))
-    wanted = Wanted(document, body.why, body.based_on, who.name, epoch)
-    made = granted(configurations.change(wanted))
+    made = granted(configurations.change(wanted(who, body, document, authority)))
     return shown.in_force(made, in_loop=configurations.loop_has_it())
 
 
@@ -50,10 +48,8 @@ def change_configuration(
 def list_revisions(
     who: Viewer,
     configurations: RigConfigurationService,
-    before: Annotated[
-        Number | None, Query(description="the last number of the page before")
-    ] = None,
-    limit: Annotated[int, Query(ge=1, le=1000)] = 100,
+    before: Before = None,
+    limit: Limit = 100,
 ) -> list[SettingsRevision]:
     """The revisions, the newest first."""
     rows = configurations.revisions(before, limit)
@@ -78,9 +74,7 @@ def restore_revision(
 ) -> RigConfigurationOut:
     """Put an earlier revision in force again, as a new one."""
     old = granted(configurations.revision(number))
-    epoch = granted(authority.check(who, body.lease))
-    wanted = Wanted(old.document, body.why, body.based_on, who.name, epoch)
-    made = granted(configurations.change(wanted))
+    made = granted(configurations.change(wanted(who, body, old.document, authority)))
     return shown.in_force(made, in_loop=configurations.loop_has_it())
 
 

@@ -2,10 +2,11 @@
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path, Query, Response
+from fastapi import APIRouter, Query, Response
 
 from app.access.dependencies import Viewer
 from app.dependencies import AnalysesService
+from app.parameters import Number
 from app.prediction.schemas import Computing
 from app.problems import PROBLEMS, granted
 from app.run_analysis.schemas import RunAnalysis
@@ -21,7 +22,7 @@ WaitS = Annotated[float, Query(ge=0, le=LONGEST_WAIT_S, allow_inf_nan=False)]
 @router.get("/{run_id}/analysis", operation_id="getRunAnalysis", responses=COMPUTING)
 def get_run_analysis(
     who: Viewer,
-    run_id: Annotated[int, Path(ge=1, le=2**53)],
+    run_id: Number,
     analyses: AnalysesService,
     response: Response,
     wait_s: WaitS = 2.0,

@@ -2,10 +2,11 @@
 
 from typing import Annotated
 
-from fastapi import APIRouter, Path, Query, Response
+from fastapi import APIRouter, Query, Response
 
 from app.access.dependencies import Viewer
 from app.dependencies import ResponsesService
+from app.parameters import Number
 from app.prediction.schemas import Computing
 from app.problems import PROBLEMS, granted
 from app.run_analysis.router import COMPUTING, WaitS
@@ -19,7 +20,7 @@ router = APIRouter(prefix="/api/v1/runs", tags=["runs"], responses=PROBLEMS)
 )
 def get_frequency_response(
     who: Viewer,
-    run_id: Annotated[int, Path(ge=1, le=2**53)],
+    run_id: Number,
     responses: ResponsesService,
     response: Response,
     transfer: Annotated[TransferName, Query(description="from which channel to which")] = "force",

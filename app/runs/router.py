@@ -2,11 +2,12 @@
 
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, Path, Query
+from fastapi import APIRouter, Query
 
 from app.access.dependencies import Operator, Viewer
 from app.access.principal import Role, lacking
 from app.dependencies import RunsService, StarterService
+from app.parameters import Before, Limit, Number
 from app.problems import PROBLEMS, granted
 from app.recording.outcome import Outcome
 from app.runs.finding import Sought
@@ -21,7 +22,6 @@ from app.runs.schemas import (
 )
 
 router = APIRouter(prefix="/api/v1/runs", tags=["runs"], responses=PROBLEMS)
-RunId = Annotated[int, Path(ge=1, le=2**53)]
 
 
 @router.post("", status_code=201, operation_id="startRun")
@@ -44,8 +44,8 @@ def list_runs(
     operator: Annotated[str | None, Query(max_length=100)] = None,
     since: Moment | None = None,
     until: Annotated[Moment | None, Query(description="and not then")] = None,
-    limit: Annotated[int, Query(ge=1, le=200)] = 50,
-    before: Annotated[int | None, Query(ge=1, le=2**53)] = None,
+    limit: Limit = 50,
+    before: Before = None,
 ) -> RunPage:
     """The newest runs first; `next` of a page is `before` of the page after it.
 
@@ -69,18 +69,20 @@ def list_run_operators(who: Viewer, runs: RunsService) -> list[str]:
 
 
 @router.get("/{run_id}", operation_id="getRun")
-def get_run(who: Viewer, run_id: RunId, runs: RunsService) -> RunDetail:
+def get_run(who: Viewer, run_id: Number, runs: RunsService) -> RunDetail:
     """A run with everything that it was made with."""
     return granted(runs.detail(run_id))
 
 
 @router.patch("/{run_id}", operation_id="annotateRun")
-def annotate_run(who: Operator, run_id: RunId, body: RunAnnotation, runs: RunsService) -> RunDetail:
+def annotate_run(
+    who: Operator, run_id: Number, body: RunAnnotation, runs: RunsService
+) -> RunDetail:
     """Change notes, tags or operator; refused where somebody else did in the meantime."""
     return granted(runs.annotate(run_id, body))
 
 
 @router.get("/{run_id}/events", operation_id="listRunEvents")
-def list_run_events(who: Viewer, run_id: RunId, runs: RunsService) -> RunEvents:
+def list_run_events(who: Viewer, run_id: Number, runs: RunsService) -> RunEvents:
     """What the loop reported during the run, in order."""
     return granted(runs.events(run_id))

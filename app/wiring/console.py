@@ -1,7 +1,6 @@
 """The parts of a running console and how they hang together: made at the start, ended in order."""
 
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from threading import Lock
 
 from app.access.service import Access
@@ -19,13 +18,7 @@ from app.db import Database
 from app.definitions.limits import RIG
 from app.drills.scoring import Limits
 from app.drills.service import Drills
-from app.first_outs.again import Again
-from app.first_outs.book import Book
 from app.first_outs.box import InForce
-from app.first_outs.keeper import Keeper
-from app.first_outs.reruns import Reruns
-from app.first_outs.run_tests import TestsOfRuns
-from app.first_outs.service import FirstOuts
 from app.histories.store import Store
 from app.identification.service import Identifications
 from app.link.leasing import LoopLease
@@ -37,14 +30,9 @@ from app.live.broadcaster import Broadcaster
 from app.metrics.facts import Sources as MetricSources
 from app.metrics.service import Metrics
 from app.presets import Presets
-from app.recording.clerk import Clerk
-from app.recording.recorder import Recorder
-from app.recording.recovery import close_orphans, sweep
 from app.rig_configuration.limits import why_not
 from app.rigs.service import Rig
 from app.rigs.status import StatusReader
-from app.runs.ledger import Ledger
-from app.runs.measuring import measure
 from app.runs.plans import Plans
 from app.runs.starting import Needs, Starter
 from app.scene.moments import Moments
@@ -54,6 +42,8 @@ from app.stopping.service import Stops
 from app.storage.service import Storage, StorageSettings
 from app.storage.watcher import Watcher
 from app.system.service import System
+from app.wiring.first_outs import FirstOutRecords
+from app.wiring.recordings import Recordings
 from app.wiring.results import RunResults
 from app.wiring.settings_in_force import SettingsInForce
 from rtcore.codes import Opcode
@@ -68,21 +58,17 @@ class Console:
         self.audit = Audit(self.database, settings.data_dir)
         self.access = Access(self.database)
         self.histories = Store(settings.histories_dir)
-        measuring = partial(measure, histories=self.histories)
-        ledger = Ledger(
-            *(self.database, settings.runs_dir, measuring, self._runs_changed),
+        self._recordings = Recordings(
+            *(self.database, settings, self.histories),
+            changed=self._runs_changed,
             over=lambda run_id, ticks: self.results.run_over(run_id, ticks),
         )
-        self._clerk = Clerk(settings.runs_dir, ledger)
-        self.recorder = Recorder(settings.runs_dir, self._clerk)
+        self.recorder = self._recordings.recorder
         block = block_path(settings.data_dir)
         self.link = Link(LoopCommand.of(settings, block), self._follow, self._configure)
-        self._keeper = Keeper(Book(self.database, settings.first_outs_dir), self._of_a_first_out)
-        self.first_outs = FirstOuts(
-            self.database, settings.first_outs_dir, lambda: self._keeper.trouble
+        self.first_outs = FirstOutRecords(
+            self.database, settings.first_outs_dir, self.histories, self._of_a_first_out
         )
-        self._reruns = Reruns(TestsOfRuns(self.database, self.histories).definition)
-        self.first_outs_again = Again(self.first_outs, self._reruns)
         self._plans = plans = Plans()
         kept = StorageSettings(settings.runs_dir, RIG.period_s, settings.reserve_bytes)
         self.storage = Storage(kept, self.database, self.recorder.state)
@@ -115,7 +101,7 @@ class Console:
             self.storage,
             self.authority.check,
             self.rig.why_not_start,
-            self._clerk.never_began,
+            self._recordings.never_began,
             lambda plan: why_not(plan, self.in_force.rig_configurations.in_force),
         )
         self.starter = Starter(
@@ -170,12 +156,8 @@ class Console:
         self._plans.recall(self.database)
         self.link.start()
         self._lease_keeper.start()
-        life = self.link.life
-        self._clerk.start()
-        sweep(self.settings.runs_dir, self._clerk)
-        close_orphans(self.settings.runs_dir, self._clerk, life.name if life else None)
-        self.recorder.start()
-        self._keeper.start()
+        self._recordings.open(self.link.life)
+        self.first_outs.keeper.start()
         self.drills.open()
         self.identifications.open()
         self.in_force.predictions.warm_up()
@@ -187,7 +169,7 @@ class Console:
         """Take the load off, depressurise, end the loop, write down what was recorded."""
         self.in_force.predictions.close()
         self.previews.close()
-        self._reruns.close()
+        self.first_outs.give_up()
         self.identifications.close()
         self._watcher.close()
         self.drills.close()
@@ -195,9 +177,8 @@ class Console:
         self.results.close()
         self.link.take_load_off()
         self.link.end_loop()
-        self._keeper.stop()
-        self.recorder.stop()
-        self._clerk.stop()
+        self.first_outs.keeper.stop()
+        self._recordings.close()
         self.link.forget()
         self.command_threads.shutdown()
         self.audit.close()
@@ -207,7 +188,7 @@ class Console:
     def _follow(self, life: Life) -> None:
         """A loop has come up, or was found: what it does is recorded, and what trips it is kept."""
         self.recorder.follow(life)
-        self._keeper.follow(life)
+        self.first_outs.keeper.follow(life)
 
     def _of_a_first_out(self) -> InForce:
         lease = self.authority.shown()

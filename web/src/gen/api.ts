@@ -8152,6 +8152,7 @@ export interface operations {
                 /** @description beginnings of words */
                 search?: string;
                 limit?: number;
+                /** @description the last number of the page before */
                 before?: number | null;
             };
             header?: never;
@@ -8806,6 +8807,7 @@ export interface operations {
             query?: {
                 fault?: string | null;
                 limit?: number;
+                /** @description the last number of the page before */
                 before?: number | null;
             };
             header?: never;
@@ -8912,6 +8914,7 @@ export interface operations {
                 /** @description and not then */
                 to?: string | null;
                 limit?: number;
+                /** @description the last number of the page before */
                 before?: number | null;
             };
             header?: never;
@@ -9277,7 +9280,7 @@ export interface operations {
     listIdentifications: {
         parameters: {
             query?: {
-                /** @description older than this */
+                /** @description the last number of the page before */
                 before?: number | null;
                 limit?: number;
             };
@@ -10228,6 +10231,7 @@ export interface operations {
                 /** @description and not then */
                 until?: string | null;
                 limit?: number;
+                /** @description the last number of the page before */
                 before?: number | null;
             };
             header?: never;
