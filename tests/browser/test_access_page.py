@@ -49,7 +49,8 @@ class Screens:
 
 @pytest.fixture
 def screens(browser: Browser, console: ConsoleProcess, people: dict[str, int]) -> Iterator[Screens]:
-    console.http.post("/lease", json={"take_over": True, "reason": "The next test"})
+    """A rig that is ready, and nobody in command."""
+    console.make_ready()
     console.http.delete("/lease")
     with ExitStack() as stack:
         yield Screens(stack, browser, console)
@@ -146,7 +147,7 @@ def test_the_first_sign_in_by_link_asks_for_a_password(
 def test_control_is_taken_asked_for_given_kept_and_taken_over(screens: Screens) -> None:
     ann, eva = screens.of("Ann"), screens.of("Eva", "/#/system/loop")
     expect(ann.get_by_test_id("holder")).to_have_text("Nobody")
-    expect(ann.get_by_test_id("cmd-reset")).to_have_attribute("aria-disabled", "true")
+    expect(ann.get_by_test_id("cmd-depressurise")).to_have_attribute("aria-disabled", "true")
     ann.keyboard.press("c")
     ann.get_by_test_id("take-reason").fill("Morning series")
     ann.keyboard.press("Enter")
@@ -167,7 +168,7 @@ def test_control_is_taken_asked_for_given_kept_and_taken_over(screens: Screens) 
     expect(eva.get_by_test_id("control-notice")).to_have_text(re.compile("You are in command now"))
     expect(ann.get_by_test_id("holder")).to_have_text("Eva")
     expect(ann.get_by_test_id("control-notice")).to_have_count(0)
-    expect(ann.locator("#why-reset")).to_contain_text("Eva is in command")
+    expect(ann.locator("#why-depressurise")).to_contain_text("Eva is in command")
 
     ann.keyboard.press("c")
     expect(ann.get_by_test_id("take-over")).to_have_attribute("aria-disabled", "true")
@@ -204,13 +205,12 @@ def test_a_reload_keeps_command_and_another_window_has_none_of_it(screens: Scree
     other = ann.context.new_page()
     other.goto(ann.url)
     expect(other.get_by_test_id("holder")).to_have_text("You, elsewhere")
-    expect(other.locator("#why-reset")).to_contain_text("another window")
+    expect(other.locator("#why-depressurise")).to_contain_text("another window")
 
 
 def test_a_viewer_stops_a_run_that_somebody_else_commands(
     screens: Screens, console: ConsoleProcess
 ) -> None:
-    console.make_ready()
     layer = {"mean_n": 0, "amplitude_n": 500, "frequency_hz": 10, "cycles": 10}
     blocks = [{"kind": "layers", "layers": [layer], "repeats": 500, "transition_s": 0.2}]
     definition = {"schema": 1, "name": "Long enough to stop", "blocks": blocks}
@@ -220,6 +220,7 @@ def test_a_viewer_stops_a_run_that_somebody_else_commands(
     expect(vic.get_by_test_id("audit-lacking")).to_contain_text(
         "Needs an engineer; you are a viewer"
     )
+    console.take_command()
     answer = console.http.post("/runs", json=start)
     assert answer.status_code == 201, answer.text
     is_at(vic, "running")
