@@ -13,12 +13,12 @@ from rtcore.compiled import entry
 from rtcore.modes import Mode
 
 HOLD_FADE_S = 0.25  # how long the loop takes to fade back in after a hold
-NEEDED = (
+POSITION = "program_tick"  # where the loop itself says that it is
+_CHANNELS = (
     *("tick", "mode", "cycle", "force_command_n", "force_n", "force_error_n"),
     *("displacement_m", "velocity_m_s", "valve_command"),
 )
-
-POSITION = "program_tick"  # where the loop itself says that it is
+NEEDED = (POSITION, *_CHANNELS)
 
 Columns = Mapping[str, npt.NDArray[Any]] | npt.NDArray[Any]  # by name, or (n,) TELEMETRY
 Ticks = npt.NDArray[np.int64]
@@ -62,11 +62,11 @@ class Walk:
     ) -> None:
         """`first_tick` is that of the run, where it is not that of the first record.
 
-        `also` are channels that the parts have beside those `NEEDED`. `counts` is for the motion's program, of
+        `also` are channels that the parts have beside those of each. `counts` is for the motion's program, of
         which nothing is ever skipped: `POSITION` is of the force's.
         """
         self._counts = counts
-        self._names = tuple(dict.fromkeys([*NEEDED, *also]))
+        self._names = tuple(dict.fromkeys([*_CHANNELS, *also]))
         self._stretches = iter(stretches)
         self._stretch: Stretch | None = None
         self._begun = False
@@ -80,8 +80,7 @@ class Walk:
     def take(self, chunk: Columns) -> Iterator[Part]:
         """The parts of the next ticks of the run; at least the columns `NEEDED`.
 
-        Where the loop's own `POSITION` is not among them, or −1 as of a recording of before there was one,
-        positions are counted.
+        Positions are counted where the loop does not say its own: of a recording of before there was one.
         """
         ticks = _plain(chunk, "tick")
         if len(ticks) == 0:

@@ -10,7 +10,7 @@ from rich.table import Table
 
 from app.analysis.goodness import goodness_of_fit
 from app.analysis.slow_reader import LEAST_CYCLES, SLOW_HZ, SlowReader
-from app.analysis.walk import NEEDED, POSITION, Walk
+from app.analysis.walk import NEEDED, Walk
 from app.commands.output import Exit, print_json, print_refusal, progress_bar, text_console
 from app.definitions.definition import Definition
 from app.definitions.reading import definition_from
@@ -81,7 +81,7 @@ def unit(path: Path, as_json: bool) -> Exit:
 
 
 def _slow(path: Path) -> list[UnitOut] | Refusal:
-    run = extract(path, Wanted(NEEDED))
+    run = extract(path, Wanted())
     if isinstance(run, Refusal):
         return run
     definition = definition_from(dict(run.description["definition"]))
@@ -93,7 +93,7 @@ def _slow(path: Path) -> list[UnitOut] | Refusal:
     reader = SlowReader(run.period_s, rig)
     walk = Walk(stretches(definition), run.period_s, run.origin_tick)
     with progress_bar("Reading") as progress:
-        for chunk in run.chunks(progress, [POSITION, *NEEDED]):
+        for chunk in run.chunks(progress, NEEDED):
             for part in walk.take(chunk):
                 reader.take(part)
     found = [unit_out(one) for one in reader.result()]

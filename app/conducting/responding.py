@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 
 from app.analysis.response.stepped import SteppedSine, channels_of
 from app.analysis.response.transfers import TRANSFERS
-from app.analysis.walk import NEEDED, POSITION, Columns, Part, Walk
+from app.analysis.walk import NEEDED, Columns, Part, Walk
 from app.conducting.found import Found
 from app.conducting.multisines import Multisine, played_of
 from app.conducting.positions import CHANNELS as OF_MOTION
@@ -18,7 +18,7 @@ from app.documents.tree import Path
 from rtcore.rig.parameters import RigParameters
 
 CHANNELS = channels_of(TRANSFERS.values())
-NEEDS = tuple(dict.fromkeys([POSITION, *NEEDED, *CHANNELS, *OF_MOTION]))
+NEEDS = tuple(dict.fromkeys([*NEEDED, *CHANNELS, *OF_MOTION]))
 
 
 def responds(definition: Definition) -> bool:

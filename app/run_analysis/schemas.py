@@ -7,7 +7,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from app.analysis.uncertainty import Shape, Source
 
-VERSION = 2  # of what is kept: one of another version is computed anew
+VERSION = 3  # of what is kept: one of another version is computed anew
 
 
 def _finite(value: Any) -> Any:

@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from app.analysis.acquisition.table import Acquisition
 from app.analysis.predicted import Predicted
-from app.analysis.walk import NEEDED, POSITION, Columns
+from app.analysis.walk import NEEDED, Columns
 from app.conducting.responding import NEEDS, Responding, responds
 from app.controller.settings import ControllerSettings
 from app.definitions.definition import Definition
@@ -101,7 +101,7 @@ def _tables(
 
 
 def _chunks(samples: Samples, needs: Iterable[Sequence[str]]) -> Iterator[Columns]:
-    names = dict.fromkeys([POSITION, *NEEDED, *(name for one in needs for name in one)])
+    names = dict.fromkeys([*NEEDED, *(name for one in needs for name in one)])
     return samples.chunks(list(names), samples.first_tick, samples.last_tick)
 
 

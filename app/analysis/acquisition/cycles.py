@@ -9,7 +9,7 @@ import numpy.typing as npt
 from app.analysis.acquisition.table import Column, Rows, channel_columns, joined
 from app.analysis.cycles import CycleReader
 from app.analysis.evidence import Stretch
-from app.analysis.walk import NEEDED, POSITION, Columns, Part, Walk
+from app.analysis.walk import NEEDED, Columns, Part, Walk
 
 _EXTREMES = (  # name, unit, name of its time; fields of CYCLE
     ("peak_force_n", "N", "peak_force_time_s", "peak_n", "peak_tick"),
@@ -36,7 +36,7 @@ class PeakValley:
         self._walk = Walk(program, period_s, first_tick)
         self._reader = CycleReader()
         self._period_s, self._first_tick = period_s, first_tick
-        self.needs = (POSITION, *NEEDED)
+        self.needs = NEEDED
         self.columns = (
             Column("block", "1", "i4"),
             Column("cycle", "1", "i8"),
@@ -78,7 +78,7 @@ class LogarithmicCycles:
         self._channels = tuple(channels)
         self._period_s, self._first_tick = period_s, first_tick
         self._pending: list[Rows] = []  # of one cycle
-        self.needs = tuple(dict.fromkeys([POSITION, *NEEDED, *channels]))
+        self.needs = tuple(dict.fromkeys([*NEEDED, *channels]))
         self.columns = (
             Column("block", "1", "i4"),
             Column("cycle", "1", "i8"),

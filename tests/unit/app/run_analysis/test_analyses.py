@@ -125,3 +125,23 @@ def test_slow_cycles_tell_the_stiffness_of_the_unit(tmp_path: Path) -> None:
     assert unit.stiffness_n_m == pytest.approx(load_rig().unit.k_tra, rel=0.02)
     assert unit.backlash_m is not None
     assert unit.hysteresis_j is not None
+
+
+def test_of_a_response_that_ends_early_each_frequency_is_a_layer(tmp_path: Path) -> None:
+    from app.documents.writing import to_data
+    from rtcore.rig.parameters import rig_from
+    from tests.recorded_runs import recorded
+    from tests.unit.app.conducting.responses import play, response_test
+
+    frequencies_hz = [20.0, 40.0, 80.0]
+    test = response_test(
+        frequencies_hz=frequencies_hz, measure_cycles=40, confidence={"gain_db": 0.05}
+    )
+    run = play(test)
+    assert run.skips > 0
+    folder = recorded(tmp_path, 1, run.records)
+    subject = Subject(folder, to_data(test), rig_from({}).model_dump(mode="json"), PERIOD_S, None)
+    layers = analysis_of(subject, lambda share: None).layers
+    assert [layer.asked.frequency_hz for layer in layers if layer.asked] == frequencies_hz
+    gains = [(layer.amplitude_n or 0) / 2000 for layer in layers]
+    assert gains == pytest.approx([point.gain for point in run.points], rel=0.02)
