@@ -9,9 +9,25 @@ export interface Fact {
   readonly text: string;
 }
 
-export function predictionFacts({ duration_s, peaks, valve }: Prediction): readonly Fact[] {
+type Length = Pick<Prediction, "duration_s" | "predicted_s" | "outcome" | "shortened">;
+
+/** Whether the test itself ends early: one that measures only until it is sure. */
+const endsEarly = ({ duration_s, predicted_s, outcome, shortened }: Length): boolean =>
+  outcome === "completed" && shortened.length === 0 && predicted_s < duration_s;
+
+/** How much of a test was computed, where that is not all of it; "" where it is. */
+export function computed(prediction: Length): string {
+  const { duration_s, predicted_s } = prediction;
+  if (predicted_s >= duration_s) return "";
+  if (endsEarly(prediction)) return `Ends as soon as its points are sure, after ${duration(duration_s)} at the latest.`;
+  return `Computed: ${duration(predicted_s)} of ${duration(duration_s)}.`;
+}
+
+export function predictionFacts(prediction: Prediction): readonly Fact[] {
+  const { duration_s, predicted_s, peaks, valve } = prediction;
+  const early = endsEarly(prediction);
   return [
-    { label: "Duration", text: duration(duration_s) },
+    { label: "Duration", text: early ? `about ${duration(predicted_s)}` : duration(duration_s) },
     { label: "Peak force", text: withUnit(FORCE, peaks.force_n) },
     { label: "Displacement", text: withUnit(LENGTH, peaks.displacement_m) },
     { label: "Velocity", text: withUnit(SPEED, peaks.velocity_m_s) },

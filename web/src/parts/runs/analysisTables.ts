@@ -47,7 +47,7 @@ export const layerTable = ({ layers }: Analysis): Table => ({
     ...[column("Phase", "°"), column("Distortion", "%"), column("Peak", FORCE.symbol), column("Valley", FORCE.symbol)],
   ],
   rows: layers.map((layer) => ({
-    head: asked(layer),
+    head: asked(layer, layers),
     cells: [
       count(layer.cycles),
       n(layer.amplitude_n),
@@ -61,10 +61,18 @@ export const layerTable = ({ layers }: Analysis): Table => ({
   })),
 });
 
-function asked({ block, asked: sine }: Pick<Analysis["layers"][number], "block" | "asked">): string {
-  if (!sine) return `Block ${block + 1}, sweep`;
+interface Sines {
+  readonly block: number;
+  readonly asked?: Analysis["layers"][number]["asked"];
+}
+
+/** What was asked for; the block of it too, where they are of several. */
+function asked({ block, asked: sine }: Sines, all: readonly Sines[]): string {
+  const where = all.every((one) => one.block === block) ? [] : [`Block ${block + 1}`];
+  if (!sine) return [...where, where.length > 0 ? "sweep" : "Sweep"].join(", ");
+  const about = sine.mean_n === 0 ? "" : ` about ${n(sine.mean_n)}\u00a0kN`;
   const hz = Number(sine.frequency_hz.toPrecision(4));
-  return `Block ${block + 1}, ${n(sine.amplitude_n)}\u00a0kN at ${hz}\u00a0Hz`;
+  return [...where, `${n(sine.amplitude_n)}\u00a0kN${about} at ${hz}\u00a0Hz`].join(", ");
 }
 
 const scaled = (value: Number, scale: number): string => (value == null ? NOTHING : Number((scale * value).toPrecision(3)).toString());
@@ -76,7 +84,7 @@ export const unitTable = ({ unit }: Analysis): Table => ({
     ...[column("Hysteresis", "J"), column("± σ", "J"), column("Backlash", "µm")],
   ],
   rows: unit.map((one) => ({
-    head: asked(one),
+    head: asked(one, unit),
     cells: [
       count(one.cycles),
       scaled(one.stiffness_n_m, 1e-6),
