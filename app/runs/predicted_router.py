@@ -29,5 +29,5 @@ def get_run_predicted(
     to_s: Elapsed | None = None,
     points: Points = 2000,
 ) -> PredictedBands:
-    """Predicted force and displacement on the run's own time: holds put them off as they did the test."""
+    """Predicted force and displacement on the run's own time, as far as it went as predicted; holds put them off."""
     return granted(predictions.bands(run_id, from_s, to_s, points))

@@ -10,13 +10,14 @@ _LOUD = frozenset({"trip", "gap", "program_fault", "deadlines_missed", "fault", 
 
 def events(subject: Subject) -> Section | None:
     """Trips, and the events in order; of very many the first and the last."""
-    trips = [e for e in subject.events if e.kind == "trip"]
+    reported = [e for e in subject.events if not _is_told(e)]
+    trips = [e for e in reported if e.kind == "trip"]
     items: list[Item] = []
     if trips:
         items.append(_table("Trips", trips))
     else:
         items.append(Words("No detector tripped."))
-    told = list(subject.events)
+    told = reported
     if len(told) > MOST:
         text = f"{len(told):,} events; those at both ends and all that are no change of block:"
         items.append(Words(text, Tone.QUIET))
@@ -24,6 +25,11 @@ def events(subject: Subject) -> Section | None:
     if told:
         items.append(_table("Events", told))
     return Section("Events and trips", tuple(items))
+
+
+def _is_told(event: Happening) -> bool:
+    """Whether another event tells it, with what came of it: that the console had the loop skip."""
+    return event.kind == "command" and event.code == "skip"
 
 
 def _thinned(told: list[Happening]) -> list[Happening]:

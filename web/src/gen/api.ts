@@ -1570,7 +1570,7 @@ export interface paths {
         };
         /**
          * Get Run Predicted
-         * @description Predicted force and displacement on the run's own time: holds put them off as they did the test.
+         * @description Predicted force and displacement on the run's own time, as far as it went as predicted; holds put them off.
          */
         get: operations["getRunPredicted"];
         put?: never;
@@ -6433,7 +6433,7 @@ export interface components {
             unit: components["schemas"]["UnitOut"][];
             /**
              * Version
-             * @default 2
+             * @default 3
              */
             version: number;
         };

@@ -48,7 +48,10 @@ def test_where_there_is_no_number_the_line_has_a_gap() -> None:
 @pytest.mark.parametrize("values", [np.full(200, np.nan), np.zeros(200), np.empty(0)])
 def test_a_channel_of_nothing_still_has_axes(values: np.ndarray) -> None:
     trace = Trace("", TIME[: len(values)], values, values, "#123456")
-    ElementTree.fromstring(time_figure([Panel("", [trace])]))
+    root = ElementTree.fromstring(time_figure([Panel("Force (kN)", [trace])]))
+    texts = [e.text for e in root if e.text and e.text.strip()]
+    assert {"Force (kN)", "Time (s)"} < set(texts)
+    assert [text for text in texts if text[-1].isdigit()]  # its ticks
 
 
 def test_names_are_never_markup() -> None:

@@ -1,4 +1,4 @@
-"""Where on a run's time its prediction lies: a hold, and the fade after it, put it off."""
+"""Where on a run's time its prediction lies: holds put it off, and what is skipped brings it forward."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -41,6 +41,26 @@ def test_a_short_hold_fades_in_as_long_as_it_faded_out() -> None:
 def test_a_run_that_ended_in_a_hold_has_nothing_after_it() -> None:
     events = [_mode(1000, "holding"), _mode(2000, "stopping")]
     assert passages(events, 0, 5000, FADE) == [Passage(0, 1000, 0)]
+
+
+def _skipped(tick: int, ticks: int) -> RunEvent:
+    event = SimpleNamespace(kind="skipped", tick=tick, code="3", value=float(ticks))
+    return cast(RunEvent, event)
+
+
+def _block(tick: int, code: str) -> RunEvent:
+    return cast(RunEvent, SimpleNamespace(kind="block", tick=tick, code=code))
+
+
+def test_what_was_skipped_brings_it_forward_and_only_a_block_that_begins_has_its_phase() -> None:
+    events = [
+        *(_block(100, "0"), _skipped(1100, 400), _skipped(2100, 250)),
+        *(_mode(2300, "holding"), _mode(2400, "running")),
+        *(_block(3100, "-1"), _block(3200, "1")),
+    ]
+    later = 100 + 99  # held, and fading in again
+    expected = [Passage(0, 1000, 0), Passage(3100, 9000, later - 650)]
+    assert passages(events, 100, 9000, FADE) == expected
 
 
 @pytest.fixture
