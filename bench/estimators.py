@@ -6,6 +6,7 @@ intervals hold the truth.
 """
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -90,17 +91,18 @@ def averaged(against: Against) -> Draws:
     return draws_of(curves(), true(frequencies_hz))
 
 
-def swept() -> Draws:
-    """A sweep of 4 s in the closed loop, 2 to 150 Hz."""
-    loop, frequencies_hz = Loop.typical(), np.geomspace(3, 120, 10)
-    ticks = 16_000
+def swept(frequencies_hz: Floats, rest_ticks: int, noise_n: float = NOISE_N) -> Draws:
+    """A sweep of 4 s in the closed loop, 2 to 150 Hz, and so long a rest after it."""
+    loop, ticks = Loop.typical(), 16_000
     phase = 2 * np.pi * PERIOD_S * np.cumsum(np.geomspace(2, 150, ticks))
     sweep = AMPLITUDE_N * np.sin(phase) * signal.windows.tukey(ticks, 0.05)
-    setpoint = np.concatenate([np.zeros(LEAD_TICKS), sweep, np.zeros(2000)])
+    setpoint = np.concatenate([np.zeros(LEAD_TICKS), sweep, np.zeros(rest_ticks)])
 
     def curves() -> Iterator[Said]:
-        for output, _ in loop.run(setpoint, SEEDS, NOISE_N, RESONANT):
-            c = swept_response(setpoint[LEAD_TICKS:], output, PERIOD_S, frequencies_hz)
+        for output, _ in loop.run(setpoint, SEEDS, noise_n, RESONANT):
+            c = swept_response(
+                setpoint[LEAD_TICKS:], output, PERIOD_S, frequencies_hz, at_rest=True
+            )
             yield Said.by(c)
 
     return draws_of(curves(), loop.response(frequencies_hz))
@@ -185,18 +187,22 @@ def _cases() -> Iterator[tuple[str, str, Callable[[], Draws]]]:
     ):
         name = f"stepped_{hz:g}_hz_{cycles}_{colour}"
         what = f"stepped sine, {hz:g} Hz, {cycles} cycles, {colour} noise"
-        yield name, what, lambda hz=hz, n=cycles, c=colour: stepped(hz, n, c)  # type: ignore[misc]
+        yield name, what, partial(stepped, hz, cycles, colour)
     yield (
         "stepped_plant",
         "stepped sine, plant in the loop",
-        lambda: stepped(35.0, 20, "resonant", "plant"),
+        partial(stepped, 35.0, 20, "resonant", "plant"),
     )
     for against in (Against.INPUT, Against.OUTPUT, Against.REFERENCE):
         what = {"h1": "H1", "h2": "H2", "reference": "plant in the loop by the setpoint"}[
             against.value
         ]
-        yield f"averaged_{against.value}", what, lambda a=against: averaged(a)  # type: ignore[misc]
-    yield "swept", "sweep, local polynomials", swept
+        yield f"averaged_{against.value}", what, partial(averaged, against)
+    yield "swept", "sweep, local polynomials", partial(swept, np.geomspace(3, 120, 10), 2000)
+    until_its_end = partial(
+        swept, np.geomspace(80, 130, 10), 0, NOISE_N / 2
+    )  # else it hides the bias
+    yield "swept_end", "sweep, its last half second and no rest", until_its_end
     yield "bla_robust", "best linear, 6 realisations", lambda: best_linear(6, SEEDS)[0]
     yield "bla_fast", "best linear, lines left out", lambda: best_linear(2, SEEDS, quick=True)[0]
 

@@ -16,9 +16,11 @@ from app.analysis.walk import Part
 from app.conducting.found import Found
 from app.definitions.blocks import Sweep
 from app.definitions.limits import RIG
+from rtcore.compiled import Array
 
 MOST_TICKS = 1_200_000  # five minutes, 34 MB: a longer one is not kept
 POINTS_AN_OCTAVE = 12
+SETTLED_S = 0.15  # after it began from rest: its first cycles, with their friction, are not yet the response
 _CHANNELS = channels_of(TRANSFERS.values())
 Column = npt.NDArray[np.float32]
 
@@ -67,6 +69,7 @@ class SweptSine:
         low, high = sorted((self._asked.from_hz, self._asked.to_hz))
         points = max(2, round(POINTS_AN_OCTAVE * math.log2(high / low)))
         frequencies_hz = np.geomspace(low, high, points)
+        frequencies_hz = frequencies_hz[self._reached_s(frequencies_hz) >= SETTLED_S]
         for transfer in TRANSFERS.values():
             input, output = columns[transfer.input], columns[transfer.output]
             reference = None if transfer.input == REFERENCE else columns[REFERENCE]
@@ -75,11 +78,22 @@ class SweptSine:
             try:
                 with np.errstate(divide="ignore", invalid="ignore"):
                     curve = swept_response(
-                        input, output, RIG.period_s, frequencies_hz, reference=reference
+                        *(input, output, RIG.period_s, frequencies_hz),
+                        reference=reference,
+                        at_rest=self._asked.taper_cycles > 0,
                     )
             except ValueError:  # too short for its lines
                 return
             yield from self._told(transfer, curve)
+
+    def _reached_s(self, frequencies_hz: Array) -> Array:
+        """(n,) how long after the block began the sweep was at these frequencies."""
+        asked = self._asked
+        ends_hz = np.array([asked.from_hz, asked.to_hz])
+        if asked.law == "log":
+            frequencies_hz, ends_hz = np.log(frequencies_hz), np.log(ends_hz)
+        share = (frequencies_hz - ends_hz[0]) / (ends_hz[1] - ends_hz[0])
+        return np.asarray(asked.taper_cycles / asked.from_hz + share * asked.lasts_s)
 
     def _told(self, transfer: Transfer, curve: Curve) -> Iterator[Found]:
         for i, hz in enumerate(curve.frequencies_hz):

@@ -142,11 +142,25 @@ def test_a_sweep_tells_the_response_exactly_where_there_is_no_noise() -> None:
     ticks = 40_000
     sweep = np.sin(2 * np.pi * PERIOD_S * np.cumsum(np.geomspace(1, 150, ticks)))
     sweep *= signal.windows.tukey(ticks, 0.05)
-    frequencies_hz = np.geomspace(3, 100, 12)
+    frequencies_hz = np.geomspace(3, 80, 12)
     found = swept_response(sweep, signal.lfilter(*LOW_PASS, sweep), PERIOD_S, frequencies_hz)
     assert found.gain == pytest.approx(_true(frequencies_hz), rel=1e-5)
     with pytest.raises(ValueError, match="not enough"):
         swept_response(sweep[:20], sweep[:20], PERIOD_S, frequencies_hz)
+
+
+@pytest.mark.parametrize("rise", [0.0, 5.0])
+def test_what_a_sweep_excites_at_its_very_end_is_told_where_it_comes_to_rest(rise: float) -> None:
+    ticks = 40_000
+    sweep = np.sin(2 * np.pi * PERIOD_S * np.cumsum(np.geomspace(1, 150, ticks)))
+    sweep *= signal.windows.tukey(ticks, 0.05)
+    sweep += rise * np.clip(np.linspace(-0.01, 1.0, ticks) / 0.03, 0.0, 1.0)  # to another level
+    output = signal.lfilter(*LOW_PASS, sweep)
+    output += np.random.default_rng(3).normal(0.0, 1e-3, ticks)
+    frequencies_hz = np.array([100.0, 115.0, 125.0, 135.0])
+    found = swept_response(sweep, output, PERIOD_S, frequencies_hz, at_rest=True)
+    assert found.gain == pytest.approx(_true(frequencies_hz), rel=5e-3)
+    assert np.isnan(swept_response(sweep, output, PERIOD_S, frequencies_hz).gain[-2:]).all()
 
 
 SIZE = 2000
