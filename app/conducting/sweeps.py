@@ -70,6 +70,8 @@ class SweptSine:
         points = max(2, round(POINTS_AN_OCTAVE * math.log2(high / low)))
         frequencies_hz = np.geomspace(low, high, points)
         frequencies_hz = frequencies_hz[self._reached_s(frequencies_hz) >= SETTLED_S]
+        if len(frequencies_hz) == 0:
+            return
         for transfer in TRANSFERS.values():
             input, output = columns[transfer.input], columns[transfer.output]
             reference = None if transfer.input == REFERENCE else columns[REFERENCE]

@@ -84,9 +84,9 @@ def _step_of_rests(records: Array, lines: npt.NDArray[np.int64]) -> Complex:
 
 def _local(near: Complex, powers: Array, step: Complex | None) -> _Local:
     """The response from the lines (3, width) of excitation, input and output around a frequency."""
-    response = powers * near[0][:, None]
-    whole, leverage = _fitted(near, np.hstack([response, powers]))
-    lone, lone_leverage = _fitted(near if step is None else near + step, response)
+    whole, leverage = _fitted(near, np.hstack([powers * near[0][:, None], powers]))
+    rested = near if step is None else near + step
+    lone, lone_leverage = _fitted(rested, powers * rested[0][:, None])
     if leverage <= MOST_CONFOUNDED * lone_leverage:
         return whole
     return lone if step is not None else whole._replace(gain=complex(np.nan))
