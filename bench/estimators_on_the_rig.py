@@ -146,7 +146,7 @@ def swept() -> Draws:
         for seed in range(SEEDS):
             records = _draw(virtual, ticks, seed)
             given, read = records["force_command_n"] - MEAN_N, records["force_n"] - MEAN_N
-            yield Said.by(swept_response(given, read, PERIOD_S, SWEPT_HZ))
+            yield Said.by(swept_response(given, read, PERIOD_S, SWEPT_HZ, at_rest=True))
 
     return draws_of(said(), _linear().force(SWEPT_HZ))
 

@@ -9,7 +9,7 @@ from app.conducting.found import Found
 from app.conducting.multisines import Multisine, played_of
 from app.conducting.positions import CHANNELS as OF_MOTION
 from app.conducting.positions import PositionResponses, multisines_in
-from app.conducting.sweeps import SweptSine
+from app.conducting.sweeps import Stillness, SweptSine
 from app.definitions.blocks import Block, Repeat, Sweep
 from app.definitions.definition import Definition
 from app.definitions.responses import FrequencyResponse
@@ -65,6 +65,7 @@ class Responding:
         self._stepped = SteppedSine(period_s, rig=rig)
         self._multisines: dict[Path, Multisine] = {}
         self._sweeps: dict[Path, SweptSine] = {}
+        self._stillness = Stillness()
         self._positions = PositionResponses(definition, period_s, first_tick)
 
     def take(self, chunk: Columns, also: Callable[[Part], None] | None = None) -> None:
@@ -73,7 +74,7 @@ class Responding:
         for part in self._walk.take(chunk):
             asked = block_at(self._definition, part.stretch.path)
             if isinstance(asked, Sweep):
-                self._sweep(part, asked).take(part)
+                self._sweep(part, asked, chunk).take(part)
             if not isinstance(asked, FrequencyResponse):
                 continue
             if asked.method == "multisine":
@@ -82,6 +83,9 @@ class Responding:
                 self._stepped.take(part)
             if also is not None:
                 also(part)
+        for sweep in self._sweeps.values():
+            sweep.follow(chunk)
+        self._stillness.take(chunk)
 
     def points(self) -> list[Found]:
         """All that there are so far; the last may still change."""
@@ -94,10 +98,11 @@ class Responding:
         """The stepped sine that is being measured now, of each transfer."""
         return [Found("stepped_sine", point) for point in self._stepped.latest()]
 
-    def _sweep(self, part: Part, asked: Sweep) -> SweptSine:
+    def _sweep(self, part: Part, asked: Sweep, chunk: Columns) -> SweptSine:
         path = part.stretch.path
         if path not in self._sweeps:
-            self._sweeps[path] = SweptSine(part.stretch.block, asked)
+            still_ticks = self._stillness.before(chunk, int(part.columns["tick"][0]))
+            self._sweeps[path] = SweptSine(part.stretch.block, asked, still_ticks)
         return self._sweeps[path]
 
     def _multisine(self, part: Part, asked: FrequencyResponse) -> Multisine:

@@ -12,7 +12,7 @@ from app.analysis.response.point import Interval, ResponsePoint
 from app.analysis.response.stepped import REFERENCE, channels_of
 from app.analysis.response.swept import swept_response
 from app.analysis.response.transfers import TRANSFERS, Transfer
-from app.analysis.walk import Part
+from app.analysis.walk import Columns, Part
 from app.conducting.found import Found
 from app.definitions.blocks import Sweep
 from app.definitions.limits import RIG
@@ -20,43 +20,104 @@ from rtcore.compiled import Array
 
 MOST_TICKS = 1_200_000  # five minutes, 34 MB: a longer one is not kept
 POINTS_AN_OCTAVE = 12
+REST_TICKS = round(
+    0.1 / RIG.period_s
+)  # in which the force comes to rest, before a sweep and after it
 SETTLED_S = 0.15  # after it began from rest: its first cycles, with their friction, are not yet the response
 _CHANNELS = channels_of(TRANSFERS.values())
 Column = npt.NDArray[np.float32]
 
 
-class SweptSine:
-    """One block, kept until it is over. One that is held, has gaps or is too long has no response."""
+class Stillness:
+    """For how long the setpoint has stood still, chunk after chunk; as a run begins, for ever."""
 
-    def __init__(self, block: int, asked: Sweep) -> None:
+    def __init__(self) -> None:
+        self._ticks = REST_TICKS
+        self._level: float | None = None
+
+    def before(self, chunk: Columns, tick: int) -> int:
+        """Ticks before this one of the chunk that comes next."""
+        return self._until(chunk, int(np.searchsorted(chunk["tick"], tick)))
+
+    def take(self, chunk: Columns) -> None:
+        """The next ticks of the run."""
+        if len(chunk["tick"]):
+            self._ticks = self._until(chunk, len(chunk["tick"]))
+            self._level = float(chunk[REFERENCE][-1])
+
+    def _until(self, chunk: Columns, end: int) -> int:
+        if end == 0:
+            return self._ticks
+        setpoint = chunk[REFERENCE][:end]
+        moved = np.flatnonzero(setpoint != setpoint[-1])
+        if len(moved):
+            return end - 1 - int(moved[-1])
+        goes_on = self._level is None or self._level == float(setpoint[-1])
+        return end + (self._ticks if goes_on else 0)
+
+
+class SweptSine:
+    """One block, kept until it is over and at rest. One that is held, has gaps or is too long has no response."""
+
+    def __init__(self, block: int, asked: Sweep, still_ticks: int) -> None:
+        """`still_ticks` is for how long the setpoint stood still before it."""
         self._block, self._asked = block, asked
+        self._from_rest = still_ticks >= REST_TICKS
         self._kept: dict[str, list[Column]] = {name: [] for name in _CHANNELS}
         self._next_tick: int | None = None
         self._ticks = 0
         self._broken = False
-        self._points: list[Found] = []
+        self._rest: int | None = None  # ticks of it, once the block is over
+        self._points: list[Found] | None = None
 
     def take(self, part: Part) -> None:
         """The next part of the block, tapers too."""
+        if self._rest is not None:
+            return  # it is repeated: the first time counts
         ticks = part.columns["tick"]
-        follows = self._next_tick is None or int(ticks[0]) == self._next_tick
-        whole = int(ticks[-1]) - int(ticks[0]) + 1 == len(ticks)
         self._ticks += len(ticks)
-        if self._broken or not follows or not whole or self._ticks > MOST_TICKS:
+        if self._broken or not self._follows(ticks) or self._ticks > MOST_TICKS:
             self._broken = True
             self._kept.clear()
             return
-        self._next_tick = int(ticks[-1]) + 1
-        for name, kept in self._kept.items():
-            kept.append(part.columns[name].copy())
+        self._keep(part.columns, slice(None))
         if self._is_over(part):
-            self._points = list(self._read())
-            self._broken = True  # and if it is repeated: the first time counts
-            self._kept.clear()
+            self._rest = 0
+
+    def follow(self, chunk: Columns) -> None:
+        """The next ticks of the run, whatever they are of: those after the block are kept while it rests."""
+        if self._rest is None or self._points is not None:
+            return
+        first = int(np.searchsorted(chunk["tick"], self._next_tick or 0))
+        after = slice(first, first + REST_TICKS - self._rest)
+        ticks, setpoint = chunk["tick"][after], chunk[REFERENCE][after]
+        if len(ticks) == 0:
+            return
+        level = self._kept[REFERENCE][-1][-1] if self._rest else setpoint[0]
+        rests = bool(np.all(setpoint == level)) and self._follows(ticks)
+        if rests:
+            self._keep(chunk, after)
+            self._rest += len(ticks)
+        if not rests or self._rest == REST_TICKS:
+            self._end()
 
     def points(self) -> list[Found]:
-        """All of them once it is over."""
-        return self._points
+        """All of them once it is over, and the rest after it, if there is one."""
+        return self._points or []
+
+    def _end(self) -> None:
+        self._points = list(self._read())
+        self._kept.clear()
+
+    def _follows(self, ticks: npt.NDArray[np.int64]) -> bool:
+        """Whether nothing is missing before and among ticks."""
+        follows = self._next_tick is None or int(ticks[0]) == self._next_tick
+        return follows and int(ticks[-1]) - int(ticks[0]) + 1 == len(ticks)
+
+    def _keep(self, columns: Columns, where: slice) -> None:
+        self._next_tick = int(columns["tick"][where][-1]) + 1
+        for name, kept in self._kept.items():
+            kept.append(np.array(columns[name][where], np.float32))
 
     def _is_over(self, part: Part) -> bool:
         ends = int(part.positions[-1]) + 1 == part.stretch.last
@@ -82,7 +143,7 @@ class SweptSine:
                     curve = swept_response(
                         *(input, output, RIG.period_s, frequencies_hz),
                         reference=reference,
-                        at_rest=self._asked.taper_cycles > 0,
+                        at_rest=self._from_rest and self._rest == REST_TICKS,
                     )
             except ValueError:  # too short for its lines
                 return

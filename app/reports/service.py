@@ -18,7 +18,7 @@ from app.runs import repository
 from app.runs.models import Run
 from app.settings import VERSION
 
-LAYOUT = 2  # counts up where the same run would be told otherwise by the same version
+LAYOUT = 3  # counts up where the same run would be told otherwise by the same version
 LONGEST_S = 120.0
 _NOTED = ("outcome", "verdict", "annotation", "reason", "operator", "notes", "software_version")
 Made = Refusal | None

@@ -49,13 +49,13 @@ def analyse_run(report: Progress, subject: Subject) -> None:
         file.write(found.model_dump_json().encode())
 
 
-def kept(folder: Path) -> RunAnalysis | None:
-    """The analysis in a run's folder, None where there is none that is understood."""
+def kept(folder: Path, version: int = VERSION) -> RunAnalysis | None:
+    """The analysis in a run's folder, None where there is none of this version."""
     try:
         found = RunAnalysis.model_validate_json((folder / NAME).read_bytes())
     except (FileNotFoundError, ValueError):
         return None
-    return found if found.version == VERSION else None
+    return found if found.version == version else None
 
 
 def analysis_of(subject: Subject, report: Progress) -> RunAnalysis:

@@ -8,6 +8,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict
 from app.analysis.uncertainty import Shape, Source
 
 VERSION = 3  # of what is kept: one of another version is computed anew
+BEFORE = 2  # which was wrong of runs of which something had been skipped, and of no others
 
 
 def _finite(value: Any) -> Any:

@@ -11,7 +11,7 @@ from app.jobs.jobs import Job, Jobs, JobState
 from app.prediction.schemas import Computing
 from app.recording.samples import open_samples
 from app.run_analysis.computing import Subject, analyse_run, kept
-from app.run_analysis.schemas import RunAnalysis
+from app.run_analysis.schemas import BEFORE, RunAnalysis
 from app.runs import repository
 from app.runs.no_data import no_data
 
@@ -36,7 +36,7 @@ class Analyses:
         subject = self._subject(run_id)
         if isinstance(subject, Refusal):
             return subject
-        found = kept(subject.folder)
+        found = kept(subject.folder) or self._outlived(run_id, subject.folder)
         if found is not None:
             return found
         refusal = self._without_samples(run_id, subject)
@@ -69,6 +69,15 @@ class Analyses:
             return found
         _log.warning("run %d was not analysed: %s", run_id, job.reason)
         return job.why_not(f"Run {run_id} was not analysed", Code.NO_DATA)
+
+    def _outlived(self, run_id: int, folder: Path) -> RunAnalysis | None:
+        """One of the version before, where it is right: of a run without samples there will be no other."""
+        found = kept(folder, BEFORE)
+        if found is None or open_samples(folder) is not None:
+            return None
+        with self._database.reading() as session:
+            skipped = any(e.kind == "skipped" for e in repository.events(session, run_id))
+        return None if skipped else found
 
     def _without_samples(self, run_id: int, subject: Subject) -> Refusal | None:
         if open_samples(subject.folder) is not None:

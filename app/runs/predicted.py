@@ -21,8 +21,6 @@ from app.runs.predicted_schemas import PredictedBands
 from rtcore.modes import Mode
 
 COLUMNS = ("force_n", "displacement_m")
-BETWEEN_BLOCKS = "-1"
-_HOLDING, _RUNNING = Mode.HOLDING.name.lower(), Mode.RUNNING.name.lower()
 
 
 class Passage(NamedTuple):
@@ -36,28 +34,26 @@ class Passage(NamedTuple):
 def passages(events: Sequence[RunEvent], first_tick: int, ticks: int, fade: int) -> list[Passage]:
     """Where in a run of so many ticks its program went on: a hold, and the fade after it, put it off.
 
-    Where some of it was skipped, its sines have another phase than was predicted until a block begins anew.
+    Once some of it has been skipped, sines have any other phase than was predicted: there it ends.
     """
     found: list[Passage] = []
     begun, shift, held_at = 0, 0, None
-    foreseen = True
     for event in events:
         at = event.tick - first_tick
         if event.kind == "skipped":
-            if foreseen:
-                found.append(Passage(begun, at, shift))
-            foreseen, shift = False, shift - round(event.value or 0.0)
-        elif event.kind == "block" and not foreseen and event.code != BETWEEN_BLOCKS:
-            foreseen, begun = True, at
-        elif event.kind == "mode" and event.code == _HOLDING and held_at is None:
+            ticks = min(ticks, at)
+            break
+        if event.kind != "mode":
+            continue
+        if event.code == Mode.HOLDING.name.lower() and held_at is None:
             held_at = at
-            if foreseen:
-                found.append(Passage(begun, at, shift))
-        elif event.kind == "mode" and event.code == _RUNNING and held_at is not None:
-            begun = at + min(at - held_at, fade) - 1
-            shift, held_at = shift + begun - held_at, None
-    if foreseen and held_at is None:
-        found.append(Passage(begun, ticks, shift))
+            found.append(Passage(begun, max(begun, at), shift))
+        elif event.code == Mode.RUNNING.name.lower() and held_at is not None:
+            again = at + min(at - held_at, fade) - 1
+            shift += again - held_at
+            begun, held_at = again, None
+    if held_at is None:
+        found.append(Passage(begun, max(begun, ticks), shift))
     return [passage for passage in found if passage.end > passage.first]
 
 

@@ -11,7 +11,8 @@ from app.conducting.found import Found
 from app.recording.whole_file import whole_file
 
 NAME = "frequency-response.json"
-VERSION = 3
+VERSION = 4
+_BEFORE = 3  # in which points at the end of a sweep were wrong, and no others
 
 
 def write_points(folder: Path, points: Sequence[Found]) -> None:
@@ -25,9 +26,12 @@ def read_points(folder: Path) -> list[Found] | None:
     """The points in a run's folder; None where there are none that are understood."""
     try:
         told = json.loads((folder / NAME).read_bytes())
-        return [_found(one) for one in told["points"]] if told["version"] == VERSION else None
+        found = [_found(one) for one in told["points"]]
+        version = told["version"]
     except (FileNotFoundError, ValueError, KeyError, TypeError):
         return None
+    right = version == VERSION or (version == _BEFORE and all(f.method != "sweep" for f in found))
+    return found if right else None
 
 
 def _plain(found: Found) -> dict[str, Any]:

@@ -12,8 +12,9 @@ from app.errors import Code, Refusal
 from app.prediction.schemas import Computing
 from app.recording.files import remove_samples
 from app.run_analysis.computing import NAME, Subject, analysis_of
-from app.run_analysis.schemas import RunAnalysis
+from app.run_analysis.schemas import BEFORE, VERSION, RunAnalysis
 from app.run_analysis.service import Analyses
+from app.runs.models import RunEvent
 from tests.recorded_runs import PERIOD_S, SINE, enter, forget_samples, played
 
 BLOCKS = [SINE, {"kind": "step", "to_n": 3000.0, "hold_s": 0.4}]
@@ -70,6 +71,24 @@ def test_what_is_kept_outlives_the_samples_and_what_is_not_is_refused(
     assert isinstance(refusal, Refusal)
     assert refusal.code is Code.NO_DATA
     assert "retention on 2026-03-01" in refusal.detail
+
+
+@pytest.mark.parametrize("skipped", [False, True])
+def test_of_the_version_before_what_is_right_outlives_the_samples_too(
+    database: Database, analyses: Analyses, tmp_path: Path, skipped: bool
+) -> None:
+    run_id = enter(database, tmp_path / "runs", played([SINE], 1.0), [SINE])
+    assert isinstance(analyses.of(run_id, wait_s=120), RunAnalysis)
+    folder = tmp_path / "runs" / str(run_id)
+    path = folder / NAME
+    path.write_text(path.read_text().replace(f'"version":{VERSION}', f'"version":{BEFORE}'))
+    remove_samples(folder)
+    forget_samples(database, run_id, datetime(2026, 3, 1, tzinfo=UTC))
+    if skipped:
+        with database.writing() as session:
+            event = {"sequence": 1, "tick": 5, "kind": "skipped", "code": "2", "text": "Went on"}
+            session.add(RunEvent(run_id=run_id, **event))
+    assert isinstance(analyses.of(run_id), Refusal if skipped else RunAnalysis)
 
 
 def test_a_run_under_way_and_one_that_is_not_there_are_refused(

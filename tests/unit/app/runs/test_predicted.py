@@ -1,4 +1,4 @@
-"""Where on a run's time its prediction lies: holds put it off, and what is skipped brings it forward."""
+"""Where on a run's time its prediction lies: a hold, and the fade after it, put it off, and a skip ends it."""
 
 from pathlib import Path
 from types import SimpleNamespace
@@ -48,19 +48,11 @@ def _skipped(tick: int, ticks: int) -> RunEvent:
     return cast(RunEvent, event)
 
 
-def _block(tick: int, code: str) -> RunEvent:
-    return cast(RunEvent, SimpleNamespace(kind="block", tick=tick, code=code))
-
-
-def test_what_was_skipped_brings_it_forward_and_only_a_block_that_begins_has_its_phase() -> None:
-    events = [
-        *(_block(100, "0"), _skipped(1100, 400), _skipped(2100, 250)),
-        *(_mode(2300, "holding"), _mode(2400, "running")),
-        *(_block(3100, "-1"), _block(3200, "1")),
-    ]
-    later = 100 + 99  # held, and fading in again
-    expected = [Passage(0, 1000, 0), Passage(3100, 9000, later - 650)]
-    assert passages(events, 100, 9000, FADE) == expected
+def test_once_something_was_skipped_nothing_is_as_predicted() -> None:
+    events = [_mode(100, "running"), _skipped(1100, 400), _skipped(2100, 250)]
+    assert passages(events, 100, 9000, FADE) == [Passage(0, 1000, 0)]
+    held = [_mode(1000, "holding"), _mode(1010, "running"), _skipped(3000, 9)]
+    assert passages(held, 0, 9000, FADE) == [Passage(0, 1000, 0), Passage(1019, 3000, 19)]
 
 
 @pytest.fixture

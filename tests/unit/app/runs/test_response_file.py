@@ -8,7 +8,7 @@ import pytest
 from app.analysis.response.point import Interval, ResponsePoint
 from app.conducting.found import Found
 from app.definitions.responses import FrequencyResponse
-from app.runs.response_file import NAME, read_points, write_points
+from app.runs.response_file import NAME, VERSION, read_points, write_points
 from app.runs.response_series import bands_of, point_out, series_of
 
 
@@ -84,3 +84,17 @@ def test_bands_are_those_of_the_test() -> None:
     )
     (told,) = bands_of([asked])
     assert (told.from_hz, told.to_hz, told.low_db, told.high_db) == (5.0, 50.0, None, 3.0)
+
+
+def test_of_the_version_before_all_but_sweeps_is_right(tmp_path: Path) -> None:
+    def aged(points: list[Found]) -> list[Found] | None:
+        write_points(tmp_path, points)
+        path = tmp_path / NAME
+        path.write_text(
+            path.read_text().replace(f'"version": {VERSION}', f'"version": {VERSION - 1}')
+        )
+        return read_points(tmp_path)
+
+    stepped = [found for found in POINTS if found.method != "sweep"]
+    assert aged(stepped) == stepped
+    assert aged([*stepped, stepped[0]._replace(method="sweep")]) is None

@@ -19,7 +19,7 @@ const endsEarly = ({ duration_s, predicted_s, outcome, shortened }: Length): boo
 export function computed(prediction: Length): string {
   const { duration_s, predicted_s } = prediction;
   if (predicted_s >= duration_s) return "";
-  if (endsEarly(prediction)) return `Ends as soon as its points are sure, after ${duration(duration_s)} at the latest.`;
+  if (endsEarly(prediction)) return `Ends early: after ${duration(duration_s)} at the latest.`;
   return `Computed: ${duration(predicted_s)} of ${duration(duration_s)}.`;
 }
 

@@ -4,6 +4,7 @@ import { budgetTable, damageTable, layerTable, rangeClasses, stepTable } from ".
 
 const SPREAD = { count: 9, mean: 2100, deviation: 12, low: 2080, high: 2120 };
 const ANALYSIS = {
+  unit: [],
   steps: [
     {
       ...{ block: 1, time_s: 2.5, begin_n: 0, end_n: 2000, dead_time_s: 0.002, rise_s: 0.0081 },
@@ -43,18 +44,18 @@ describe("an analysis as tables", () => {
   });
   it("says what a layer asked for and how far it was off", () => {
     const [row] = layerTable(ANALYSIS).rows;
-    expect(row!.head).toBe("2.00\u00a0kN at 50\u00a0Hz");
+    expect(row!.head).toBe("Block 1, 2.00\u00a0kN at 50\u00a0Hz");
     expect(row!.cells[2]).toBe("2.50");
     expect(row!.cells[6]).toMatch(/^2.10 ± /);
     expect(row!.cells[7]).toBe("2.10");
   });
-  it("names the mean where there is one, and the block where there are several", () => {
+  it("names the mean where there is one, and no block where all is of one", () => {
     const [layer] = ANALYSIS.layers;
-    const about = { ...layer!, block: 1, asked: { ...layer!.asked!, mean_n: 5000 } };
-    const rows = layerTable({ ...ANALYSIS, layers: [layer!, about] }).rows;
+    const about = { ...layer!, asked: { ...layer!.asked!, mean_n: 5000 } };
+    const rows = layerTable({ ...ANALYSIS, steps: [], layers: [layer!, about] }).rows;
     expect(rows.map(({ head }) => head)).toEqual([
-      "Block 1, 2.00\u00a0kN at 50\u00a0Hz",
-      "Block 2, 2.00\u00a0kN about 5.00\u00a0kN at 50\u00a0Hz",
+      "2.00\u00a0kN at 50\u00a0Hz",
+      "2.00\u00a0kN about 5.00\u00a0kN at 50\u00a0Hz",
     ]);
   });
   it("has the greatest contribution first", () => {

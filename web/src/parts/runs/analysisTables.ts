@@ -41,13 +41,13 @@ export const stepTable = ({ steps }: Analysis): Table => ({
 });
 
 /** One row a layer: what was asked for, and how far it was off. */
-export const layerTable = ({ layers }: Analysis): Table => ({
+export const layerTable = (analysis: Analysis): Table => ({
   columns: [
     ...[column("Cycles"), column("Amplitude", FORCE.symbol), column("off by", "%"), column("Mean", FORCE.symbol)],
     ...[column("Phase", "°"), column("Distortion", "%"), column("Peak", FORCE.symbol), column("Valley", FORCE.symbol)],
   ],
-  rows: layers.map((layer) => ({
-    head: asked(layer, layers),
+  rows: analysis.layers.map((layer) => ({
+    head: asked(layer, ofSeveralBlocks(analysis)),
     cells: [
       count(layer.cycles),
       n(layer.amplitude_n),
@@ -61,14 +61,12 @@ export const layerTable = ({ layers }: Analysis): Table => ({
   })),
 });
 
-interface Sines {
-  readonly block: number;
-  readonly asked?: Analysis["layers"][number]["asked"];
-}
+const ofSeveralBlocks = ({ layers, steps, unit }: Analysis): boolean =>
+  new Set([...layers, ...steps, ...unit].map(({ block }) => block)).size > 1;
 
-/** What was asked for; the block of it too, where they are of several. */
-function asked({ block, asked: sine }: Sines, all: readonly Sines[]): string {
-  const where = all.every((one) => one.block === block) ? [] : [`Block ${block + 1}`];
+/** What was asked for; the block of it too, where what is told is of several. */
+function asked({ block, asked: sine }: Pick<Analysis["layers"][number], "block" | "asked">, several: boolean): string {
+  const where = several ? [`Block ${block + 1}`] : [];
   if (!sine) return [...where, where.length > 0 ? "sweep" : "Sweep"].join(", ");
   const about = sine.mean_n === 0 ? "" : ` about ${n(sine.mean_n)}\u00a0kN`;
   const hz = Number(sine.frequency_hz.toPrecision(4));
@@ -78,13 +76,13 @@ function asked({ block, asked: sine }: Sines, all: readonly Sines[]): string {
 const scaled = (value: Number, scale: number): string => (value == null ? NOTHING : Number((scale * value).toPrecision(3)).toString());
 
 /** One row a slow sine: the unit under test as it gives way to a force that pushes and pulls. */
-export const unitTable = ({ unit }: Analysis): Table => ({
+export const unitTable = (analysis: Analysis): Table => ({
   columns: [
     ...[column("Cycles"), column("Static stiffness", "kN/mm"), column("± σ", "kN/mm")],
     ...[column("Hysteresis", "J"), column("± σ", "J"), column("Backlash", "µm")],
   ],
-  rows: unit.map((one) => ({
-    head: asked(one, unit),
+  rows: analysis.unit.map((one) => ({
+    head: asked(one, ofSeveralBlocks(analysis)),
     cells: [
       count(one.cycles),
       scaled(one.stiffness_n_m, 1e-6),

@@ -149,12 +149,12 @@ def test_a_sweep_tells_the_response_exactly_where_there_is_no_noise() -> None:
         swept_response(sweep[:20], sweep[:20], PERIOD_S, frequencies_hz)
 
 
-@pytest.mark.parametrize("rise", [0.0, 5.0])
+@pytest.mark.parametrize("rise", [0.0, 200.0])
 def test_what_a_sweep_excites_at_its_very_end_is_told_where_it_comes_to_rest(rise: float) -> None:
     ticks = 40_000
     sweep = np.sin(2 * np.pi * PERIOD_S * np.cumsum(np.geomspace(1, 150, ticks)))
     sweep *= signal.windows.tukey(ticks, 0.05)
-    sweep += rise * np.clip(np.linspace(-0.01, 1.0, ticks) / 0.03, 0.0, 1.0)  # to another level
+    sweep += rise * np.clip(np.linspace(-0.01, 1.0, ticks) / 0.002, 0.0, 1.0)  # to another level
     output = signal.lfilter(*LOW_PASS, sweep)
     output += np.random.default_rng(3).normal(0.0, 1e-3, ticks)
     frequencies_hz = np.array([100.0, 115.0, 125.0, 135.0])
