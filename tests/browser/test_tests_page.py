@@ -135,6 +135,7 @@ def test_what_is_wrong_is_said_at_the_field_and_at_the_line(
     page: Page, console: ConsoleProcess
 ) -> None:
     begin(page, console, "Too much")
+    expect(page.get_by_test_id("preview-duration")).to_be_visible()
     row(page, "blocks[1]").click()
     key(page, "blocks[1].amplitude_n").fill("60")
     said = page.get_by_test_id("fields-blocks[1]").get_by_test_id("said")
