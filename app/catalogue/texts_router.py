@@ -28,9 +28,7 @@ from app.problems import PROBLEMS, granted
 
 router = APIRouter(prefix="/api/v1/tests", tags=["tests"], responses=PROBLEMS)
 TestId = Annotated[str, Path(max_length=LONGEST_ID)]
-LONGEST_IDS = (
-    20_000  # thrice that where commas are escaped: no more fits into the head of a request
-)
+LONGEST_IDS = 20_000  # thrice that with commas escaped: no more fits into the head of a request
 IDS = r"^[a-z0-9,-]*$"  # nothing else: other letters are escaped to twelve times their length
 _YAML = "application/yaml"
 _ZIP = "application/zip"

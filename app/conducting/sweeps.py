@@ -20,9 +20,8 @@ from rtcore.compiled import Array
 
 MOST_TICKS = 1_200_000  # five minutes, 34 MB: a longer one is not kept
 POINTS_AN_OCTAVE = 12
-REST_TICKS = round(
-    0.1 / RIG.period_s
-)  # in which the force comes to rest, before a sweep and after it
+REST_S = 0.1  # in which the force comes to rest, before a sweep and after it
+REST_TICKS = round(REST_S / RIG.period_s)
 SETTLED_S = 0.15  # after it began from rest: its first cycles, with their friction, are not yet the response
 _CHANNELS = channels_of(TRANSFERS.values())
 Column = npt.NDArray[np.float32]
@@ -94,11 +93,13 @@ class SweptSine:
         if len(ticks) == 0:
             return
         level = self._kept[REFERENCE][-1][-1] if self._rest else setpoint[0]
-        rests = bool(np.all(setpoint == level)) and self._follows(ticks)
-        if rests:
-            self._keep(chunk, after)
-            self._rest += len(ticks)
-        if not rests or self._rest == REST_TICKS:
+        expected = ticks[0] if self._next_tick is None else self._next_tick
+        rests = (setpoint == level) & (ticks == expected + np.arange(len(ticks)))
+        still = len(ticks) if rests.all() else int(np.argmin(rests))
+        if still > 0:
+            self._keep(chunk, slice(first, first + still))
+            self._rest += still
+        if still < len(ticks) or self._rest == REST_TICKS:
             self._end()
 
     def points(self) -> list[Found]:

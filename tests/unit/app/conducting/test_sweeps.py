@@ -61,8 +61,9 @@ def test_beside_another_load_only_what_can_be_told_from_its_ringing_is_told(befo
         assert point.gain == pytest.approx(same.gain, rel=0.04)
 
 
-def test_its_points_come_when_it_has_come_to_rest_however_its_ticks_are_cut() -> None:
-    definition = sweep(from_hz=30.0, to_hz=100.0)
+@pytest.mark.parametrize("mean_n", [0.0, 5000.0])
+def test_its_points_come_after_it_however_its_ticks_are_cut(mean_n: float) -> None:
+    definition = sweep(from_hz=30.0, to_hz=100.0, mean_n=mean_n)
     records = play(definition).records
     whole = points_of(definition, records)
     over = int(np.flatnonzero(records["mode"] == Mode.STOPPING)[0])
